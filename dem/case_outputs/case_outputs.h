@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+#include "dem/case.h"
+#include "dem/run_case.h"
+namespace venato::dem {
+
+/// Writes what `venato dem` leaves in its folder (made when missing): result.h5, kpi.csv, series.csv, counter_<name>.csv, and the plots
+/// counter_mass.svg, flow_rate.svg, kinetic_energy.svg, profile_<n>_velocity.svg and profile_<n>_solid_fraction.svg (one pair per snapshot plan
+/// with at least 3 frames). Same case and result, same bytes; no wall-clock times. \throws WorkError, UsageError naming the file.
+void write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r);
+
+/// One line of kpi.csv; standard_error NaN = not known (empty in the file).
+struct Kpi {
+  std::string name;
+  double value, standard_error;
+  std::string unit, description;
+};
+std::vector<Kpi> case_kpis(const Case& c, const CaseResult& r);
+
+/// Steady mass flow over a counter between the times at which 10 % and 90 % of its mass had crossed (what comes before is filling or opening, what
+/// comes after is running empty): mean and standard error of 8 equal blocks. NaN with fewer than 20 crossings.
+struct FlowEstimate {
+  double mean_kg_s, standard_error_kg_s, from_s, to_s;
+};
+FlowEstimate steady_flow(const std::vector<CounterRecord>& records);
+}  // namespace venato::dem

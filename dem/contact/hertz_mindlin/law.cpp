@@ -1,0 +1,12 @@
+#include "dem/contact/hertz_mindlin/law.h"
+
+#include "dem/contact/kernels/mixing.h"
+#include "dem/contact/kernels/restitution.h"
+
+namespace venato::dem {
+HertzMindlin make_hertz_mindlin(const MaterialTable& table, int a, int b) {
+  const EffectiveModuli m = effective_moduli(table.materials[static_cast<std::size_t>(a)], table.materials[static_cast<std::size_t>(b)]);
+  const PairProperties& p = table.pair(a, b);
+  return {m.young_pa, m.shear_pa, damping_for_restitution(p.restitution), p.sliding_friction, p.rolling_friction, p.rolling_damping_ratio};
+}
+}  // namespace venato::dem

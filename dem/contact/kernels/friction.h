@@ -1,0 +1,47 @@
+#pragma once
+/// Tangential spring-dashpot with Coulomb cap, and EPSD rolling: shared by all laws (design.md 7). One capped spring serves both: force and
+/// sliding, torque and rolling.
+#include "dem/contact/kernels/contact_types.h"
+
+namespace venato::dem {
+
+/// Ratio by which springs shrink when the contact unloads; 1 for a new or loading contact.
+VENATO_KERNEL double unload_ratio(double radius_now, double radius_before) { return radius_now < radius_before ? radius_now / radius_before : 1.0; }
+
+/// Incremental spring, rescaled when the contact unloads (so a closed loop never gains energy: verification.md 5.5), turned rigidly with the contact.
+/// The spring alone is cut to the cap; spring + damping together are cut again without touching the spring; no damping while it slips (rule REC of
+/// verification.md 0: |F| = cap all through gross sliding, 3.7).
+/// \param spring  [N] or [N m], in: of the last step; out: of this step
+/// \param rate    [m/s] or [rad/s], across the normal
+/// \return total on i, |total| <= cap
+VENATO_KERNEL Trio capped_spring(Trio& spring, const ContactGeometry& g, double ratio, const Trio& rate, double stiffness, double damping, double cap,
+                                 double dt) {
+  const double two = 2 / (1 + dot(g.turn, g.turn));
+  const Trio turned = across(rotate(spring, g.turn, two), g.normal);   // projection only removes rounding
+  const Trio trial = ratio * turned - (stiffness * dt) * rate;
+  const double size = length(trial);
+  const bool slips = size > cap;
+  const double cut = slips ? cap / size : 1.0;
+  spring = cut * trial;
+  const double active_damping = slips ? 0.0 : damping;
+  const Trio total = spring - active_damping * rate;
+  const double total_size = length(total);
+  return (total_size > cap ? cap / total_size : 1.0) * total;
+}
+
+/// Energy lost by one capped spring in one step: shrinking / stiffening, slip (both in .first), damping (.second). Each is >= 0.
+struct SpringLoss { double plastic, damping; };
+inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio& total, const ContactGeometry& g, double ratio, const Trio& rate,
+                              double stiffness_before, double stiffness, double dt) {
+  if (!(stiffness > 0)) return {0, -dot(total, rate) * dt};
+  const double two = 2 / (1 + dot(g.turn, g.turn));
+  const Trio shrunk = ratio * across(rotate(before, g.turn, two), g.normal);
+  const Trio trial = shrunk - (stiffness * dt) * rate;
+  const double held = stiffness_before > 0 ? dot(before, before) / (2 * stiffness_before) : 0;
+  const double rescaling = held - dot(shrunk, shrunk) / (2 * stiffness);
+  const double slip = (dot(trial, trial) - dot(after, after)) / (2 * stiffness);
+  return {rescaling + slip, -dot(total - after, rate) * dt};
+}
+
+inline constexpr double kEpsdStiffness = 2.25;   ///< [-] k_r = 2.25 k_n mu_r^2 R*^2 (Ai, Chen, Rotter & Ooi 2011, model C)
+}  // namespace venato::dem

@@ -1,0 +1,83 @@
+#pragma once
+/// Grain-grain contacts are worked on in small batches, one array per quantity, so that the compiler turns the law into vector code of the machine
+/// (target_clones in <law>/batch.cpp). Every lane does the same scalar operations in the same order on every machine: same bytes.
+#include <cmath>
+
+#include "dem/contact/kernels/contact_types.h"
+
+namespace venato::dem {
+
+inline constexpr int kBatchWidth = 32;
+inline constexpr int kMaxParameters = 9;
+
+/// Raw state of touching pairs; `from_i` = position of j seen from i (periodic image already chosen).
+struct alignas(64) PairBatch {
+  using Lane = double[kBatchWidth];
+  Lane from_i_x, from_i_y, from_i_z;            ///< [m]
+  Lane dv_x, dv_y, dv_z;                        ///< [m/s] v_j - v_i, half step
+  Lane wi_x, wi_y, wi_z, wj_x, wj_y, wj_z;      ///< [rad/s]
+  Lane radius_i, radius_j, inverse_mass_i, inverse_mass_j;
+  double parameter[kMaxParameters][kBatchWidth];
+  double history[8][kBatchWidth];               ///< ContactHistory, member by member; in and out
+  Lane force_x, force_y, force_z;               ///< out: on i [N]
+  Lane torque_i_x, torque_i_y, torque_i_z, torque_j_x, torque_j_y, torque_j_z;   ///< out [N m]
+};
+
+struct PairFrame {
+  ContactGeometry g;
+  double arm_i, arm_j;   ///< [m] R - overlap/2: both torques act at one point, so angular momentum is exact
+};
+
+VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
+  const Trio to_j{b.from_i_x[l], b.from_i_y[l], b.from_i_z[l]}, dv{b.dv_x[l], b.dv_y[l], b.dv_z[l]};
+  const Trio wi{b.wi_x[l], b.wi_y[l], b.wi_z[l]}, wj{b.wj_x[l], b.wj_y[l], b.wj_z[l]};
+  const double ri = b.radius_i[l], rj = b.radius_j[l];
+  const double distance = length(to_j);
+  const Trio n = (1 / distance) * to_j;
+  const double gap = ri + rj - distance;
+  const double overlap = gap > 0 ? gap : 0.0;   // the touch test compares squares: rounding may leave -1e-20 here
+  PairFrame f;
+  f.arm_i = ri - 0.5 * overlap;
+  f.arm_j = rj - 0.5 * overlap;
+  // Positions of the last step and of the half step follow exactly from the half-step velocity: no old normal needs storing.
+  const Trio before = to_j - dt * dv, half = to_j - (0.5 * dt) * dv;
+  const Trio n_half = (1 / length(half)) * half;
+  f.g.overlap = overlap;
+  f.g.approach = -dot(dv, n);
+  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, (1 / distance) * half) - across(dv, n_half);   // `half` is a chord: exact for rigid turns
+  f.g.roll = across(wi - wj, n);
+  f.g.normal = n;
+  f.g.turn = frame_turn(before, to_j, n, 0.5 * dot(wi + wj, n) * dt);
+  f.g.r_eff = ri * rj / (ri + rj);
+  f.g.m_eff = 1 / (b.inverse_mass_i[l] + b.inverse_mass_j[l]);
+  f.g.i_roll = 1.4 / (b.inverse_mass_i[l] / (ri * ri) + b.inverse_mass_j[l] / (rj * rj));
+  return f;
+}
+
+VENATO_KERNEL ContactHistory history_of(const PairBatch& b, int l) {
+  return {{b.history[0][l], b.history[1][l], b.history[2][l]}, b.history[3][l], {b.history[4][l], b.history[5][l], b.history[6][l]}, b.history[7][l]};
+}
+
+/// The first `lanes` lanes of a batch (unused ones among them hold harmless numbers). Always inlined into a target_clones function.
+template <ContactLaw L, class MakeLaw>
+VENATO_KERNEL void evaluate_lanes(PairBatch& b, int lanes, double dt, const MakeLaw& law_of_lane) {
+#pragma GCC ivdep
+  for (int l = 0; l < lanes; ++l) {
+    const PairFrame f = pair_frame(b, l, dt);
+    ContactHistory h = history_of(b, l);
+    const L law = law_of_lane(b, l);
+    const ContactForce c = law.force(f.g, h, dt);
+    const Trio force = c.tangential - c.normal * f.g.normal;
+    const Trio lever = cross(f.g.normal, c.tangential);
+    b.force_x[l] = force.x, b.force_y[l] = force.y, b.force_z[l] = force.z;
+    b.torque_i_x[l] = f.arm_i * lever.x + c.rolling.x;
+    b.torque_i_y[l] = f.arm_i * lever.y + c.rolling.y;
+    b.torque_i_z[l] = f.arm_i * lever.z + c.rolling.z;
+    b.torque_j_x[l] = f.arm_j * lever.x - c.rolling.x;
+    b.torque_j_y[l] = f.arm_j * lever.y - c.rolling.y;
+    b.torque_j_z[l] = f.arm_j * lever.z - c.rolling.z;
+    b.history[0][l] = h.spring.x, b.history[1][l] = h.spring.y, b.history[2][l] = h.spring.z, b.history[3][l] = h.contact_radius;
+    b.history[4][l] = h.rolling.x, b.history[5][l] = h.rolling.y, b.history[6][l] = h.rolling.z, b.history[7][l] = h.plastic;
+  }
+}
+}  // namespace venato::dem

@@ -1,0 +1,46 @@
+#pragma once
+/// Three doubles for the contact kernels. Eigen's Vec3 stays the type of every interface; the kernels are compiled for several vector
+/// widths, and plain scalars are what the compiler turns into lanes (expression templates are not).
+#include <cmath>
+#include "base/vec3.h"
+
+namespace venato::dem {
+
+#define VENATO_KERNEL [[gnu::always_inline]] inline
+
+struct Trio {
+  double x = 0, y = 0, z = 0;
+  VENATO_KERNEL Trio() {}
+  VENATO_KERNEL Trio(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+  VENATO_KERNEL Trio(const Trio& o) : x(o.x), y(o.y), z(o.z) {}   // member by member: the vectoriser refuses block copies
+  VENATO_KERNEL Trio& operator=(const Trio& o) {
+    x = o.x, y = o.y, z = o.z;
+    return *this;
+  }
+};
+VENATO_KERNEL Trio operator+(const Trio& a, const Trio& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+VENATO_KERNEL Trio operator-(const Trio& a, const Trio& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+VENATO_KERNEL Trio operator-(const Trio& a) { return {-a.x, -a.y, -a.z}; }
+VENATO_KERNEL Trio operator*(double s, const Trio& a) { return {s * a.x, s * a.y, s * a.z}; }
+VENATO_KERNEL double dot(const Trio& a, const Trio& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+VENATO_KERNEL Trio cross(const Trio& a, const Trio& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+VENATO_KERNEL double length(const Trio& a) { return std::sqrt(dot(a, a)); }
+/// Part of a perpendicular to the unit vector n.
+VENATO_KERNEL Trio across(const Trio& a, const Trio& n) { return a - dot(a, n) * n; }
+inline Trio to_trio(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Vec3 to_vec3(const Trio& t) { return {t.x, t.y, t.z}; }
+
+/// Rotation as a Gibbs vector g = axis * tan(angle / 2): exact (length-preserving) and without sines.
+VENATO_KERNEL Trio rotate(const Trio& v, const Trio& g, double two_over_one_plus_g2) {
+  const Trio a = cross(g, v);
+  return v + two_over_one_plus_g2 * (a + cross(g, a));
+}
+/// Rotation that turns the contact frame in one step: the normal from the direction of `from` to that of `to` by the shortest way, after which
+/// the frame spins by `angle` = rate * dt about the (new) unit normal n, as the midpoint rule has it: tan(turn / 2) = angle / 2. With the half-step normal
+/// of pair_frame() a pair that turns as one rigid body then keeps its springs exactly, whatever the step.
+VENATO_KERNEL Trio frame_turn(const Trio& from, const Trio& to, const Trio& n, double angle) {
+  const Trio shortest = (1 / (std::sqrt(dot(from, from) * dot(to, to)) + dot(from, to))) * cross(from, to);
+  const Trio spin = (0.5 * angle) * n;
+  return shortest + spin + cross(spin, shortest);   // composition of Gibbs vectors; their dot product is 0
+}
+}  // namespace venato::dem

@@ -1,0 +1,131 @@
+#include "dem/neighbours/cell_grid.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace venato::dem {
+namespace {
+constexpr int kMostLevels = 6;                 // size ratios up to 64; smaller grains share the last level
+constexpr std::int64_t kCellsPerGrain = 8, kFreeCells = 4096;
+}  // namespace
+
+PeriodicBox PeriodicBox::from(const Box& box) {
+  PeriodicBox p;
+  for (int a = 0; a < 3; ++a)
+    if (box.periodic[a]) {
+      p.low[static_cast<std::size_t>(a)] = box.low[a];
+      p.length[static_cast<std::size_t>(a)] = box.high[a] - box.low[a];
+    }
+  return p;
+}
+
+std::int64_t CellGrid::Axis::cell_of(double v) const {
+  const std::int64_t k = raw(v);
+  if (periodic) return std::clamp<std::int64_t>(k, 0, count - 1);   // wrapped already; rounding may touch the upper face
+  if (slabs.empty()) return std::clamp<std::int64_t>(k, 0, count - 1);
+  return std::lower_bound(slabs.begin(), slabs.end(), k) - slabs.begin();
+}
+
+void CellGrid::Axis::range(double low, double high, std::int64_t& first, std::int64_t& last) const {
+  first = raw(low), last = raw(high);
+  if (periodic) {
+    if (last - first + 1 >= count) {
+      first = 0, last = count - 1;
+    } else if (first >= count || last < 0) {   // asked from just outside the box
+      const std::int64_t move = first >= count ? -count : count;
+      first += move, last += move;
+    }
+  } else if (slabs.empty()) {
+    first = std::max<std::int64_t>(first, 0), last = std::min(last, count - 1);
+  } else {
+    first = std::lower_bound(slabs.begin(), slabs.end(), first) - slabs.begin();
+    last = std::upper_bound(slabs.begin(), slabs.end(), last) - slabs.begin() - 1;
+  }
+}
+
+void CellGrid::shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell) {
+  double low[3], high[3];
+  for (int a = 0; a < 3; ++a) low[a] = std::numeric_limits<double>::infinity(), high[a] = -low[a];
+  for (const std::int32_t k : members) {
+    const Sphere& s = spheres[static_cast<std::size_t>(k)];
+    const double p[3] = {s.x, s.y, s.z};
+    for (int a = 0; a < 3; ++a) low[a] = std::min(low[a], p[a]), high[a] = std::max(high[a], p[a]);
+  }
+  const std::int64_t most = kCellsPerGrain * static_cast<std::int64_t>(members.size()) + kFreeCells;
+  auto cells = [&] {
+    double product = 1;
+    for (const Axis& x : level.axis) product *= static_cast<double>(x.count);
+    return product;
+  };
+  for (bool compressed = false;; cell *= compressed ? 2 : 1) {
+    for (int a = 0; a < 3; ++a) {
+      Axis& x = level.axis[a];
+      x.slabs.clear();
+      const std::size_t s = static_cast<std::size_t>(a);
+      x.periodic = box.length[s] > 0;
+      if (x.periodic) {
+        x.count = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(box.length[s] / cell)));
+        x.origin = box.low[s], x.cell = box.length[s] / static_cast<double>(x.count);
+      } else {
+        x.origin = low[a], x.cell = cell;
+        const double extent = (high[a] - low[a]) / cell;
+        x.count = extent < 1e15 ? static_cast<std::int64_t>(extent) + 1 : std::numeric_limits<std::int32_t>::max();
+      }
+    }
+    if (cells() <= static_cast<double>(most)) return;
+    for (int a = 0; a < 3; ++a) {
+      Axis& x = level.axis[a];
+      if (x.periodic) continue;
+      for (const std::int32_t k : members) {
+        const Sphere& sphere = spheres[static_cast<std::size_t>(k)];
+        const double p[3] = {sphere.x, sphere.y, sphere.z};
+        x.slabs.push_back(x.raw(p[a]));
+      }
+      std::sort(x.slabs.begin(), x.slabs.end());
+      x.slabs.erase(std::unique(x.slabs.begin(), x.slabs.end()), x.slabs.end());
+      x.count = static_cast<std::int64_t>(x.slabs.size());
+    }
+    if (cells() <= static_cast<double>(most)) return;
+    compressed = true;   // still too many (a diagonal line of grains): coarser cells
+  }
+}
+
+std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const PeriodicBox& box, double margin, int threads) {
+  const std::size_t n = spheres.size();
+  std::vector<std::int32_t> order(n);
+  levels_.clear();
+  if (n == 0) return order;
+  double r_max = 0;
+  for (const Sphere& s : spheres) r_max = std::max(r_max, s.r);
+  std::vector<std::vector<std::int32_t>> members(kMostLevels);
+  for (std::size_t k = 0; k < n; ++k) {
+    int level = 0;
+    for (double bound = r_max / 2; level + 1 < kMostLevels && spheres[k].r < bound; bound /= 2) ++level;
+    members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(k));
+  }
+  std::vector<std::int32_t> cell(n);
+  std::int32_t first = 0;
+  for (const auto& group : members) {
+    if (group.empty()) continue;
+    Level& level = levels_.emplace_back();
+    for (const std::int32_t k : group) level.r_max = std::max(level.r_max, spheres[static_cast<std::size_t>(k)].r);
+    level.first_slot = first;
+    shape_level(level, spheres, group, box, 2 * level.r_max + margin);
+    const std::int64_t nx = level.axis[0].count, ny = level.axis[1].count;
+    const std::int64_t m = static_cast<std::int64_t>(group.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && m > 4096)
+    for (std::int64_t q = 0; q < m; ++q) {
+      const Sphere& s = spheres[static_cast<std::size_t>(group[static_cast<std::size_t>(q)])];
+      cell[static_cast<std::size_t>(q)] =
+          static_cast<std::int32_t>((level.axis[2].cell_of(s.z) * ny + level.axis[1].cell_of(s.y)) * nx + level.axis[0].cell_of(s.x));
+    }
+    level.start.assign(static_cast<std::size_t>(nx * ny * level.axis[2].count) + 1, 0);
+    for (std::size_t q = 0; q < group.size(); ++q) ++level.start[static_cast<std::size_t>(cell[q]) + 1];
+    for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
+    std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);
+    for (std::size_t q = 0; q < group.size(); ++q) order[static_cast<std::size_t>(first + next[static_cast<std::size_t>(cell[q])]++)] = group[q];
+    first += static_cast<std::int32_t>(group.size());
+  }
+  return order;
+}
+}  // namespace venato::dem

@@ -1,0 +1,87 @@
+#pragma once
+/// Cell grid over the grains, one level per factor of two in radius, so that small grains never search through cells made for big ones.
+/// Grains are put in order (level, cell): a row of cells is one contiguous run of grains. Cost does not depend on empty space: the grid
+/// spans the occupied extent, and where that is mostly empty its axes are compressed to the occupied slabs.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dem/case.h"
+
+namespace venato::dem {
+
+/// Position and radius of a grain: what the search and the first test of every pair read.
+struct alignas(32) Sphere { double x, y, z, r; };
+
+/// Box as the search needs it. Non-periodic directions have length 0.
+struct PeriodicBox {
+  std::array<double, 3> low{}, length{};
+  static PeriodicBox from(const Box& box);
+  bool periodic(int axis) const { return length[static_cast<std::size_t>(axis)] > 0; }
+};
+
+class CellGrid {
+ public:
+  /// \param spheres wrapped into the box in periodic directions
+  /// \param cutoff_margin [m] skin of the list
+  /// \return order: new slot k holds old slot order[k]
+  std::vector<std::int32_t> build(std::span<const Sphere> spheres, const PeriodicBox& box, double cutoff_margin, int threads);
+
+  /// Calls visit(first_slot, last_slot) for runs of slots that hold every grain j with |x_j - p| < reach_extra + r_j (and more, once each).
+  template <class Visit>
+  void for_runs_near(double x, double y, double z, double reach_extra, const Visit& visit) const;
+
+  double largest_radius() const { return levels_.empty() ? 0 : levels_.front().r_max; }
+  void clear() { levels_.clear(); }
+
+ private:
+  struct Axis {
+    double origin = 0, cell = 1;
+    std::int64_t count = 0;
+    bool periodic = false;
+    std::vector<std::int64_t> slabs;   ///< occupied slabs, ascending, when compressed
+    std::int64_t raw(double v) const { return static_cast<std::int64_t>(std::floor((v - origin) / cell)); }
+    std::int64_t cell_of(double v) const;
+    void range(double low, double high, std::int64_t& first, std::int64_t& last) const;
+  };
+  struct Level {
+    double r_max = 0;
+    Axis axis[3];
+    std::int32_t first_slot = 0;
+    std::vector<std::int32_t> start;   ///< [cell + 1], relative to first_slot
+  };
+  void shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell);
+  std::vector<Level> levels_;
+};
+
+template <class Visit>
+void CellGrid::for_runs_near(double x, double y, double z, double reach_extra, const Visit& visit) const {
+  for (const Level& level : levels_) {
+    const double reach = reach_extra + level.r_max;
+    std::int64_t lo[3], hi[3];
+    const double p[3] = {x, y, z};
+    bool any = true;
+    for (int a = 0; a < 3; ++a) {
+      level.axis[a].range(p[a] - reach, p[a] + reach, lo[a], hi[a]);
+      any = any && lo[a] <= hi[a];
+    }
+    if (!any) continue;
+    const std::int64_t nx = level.axis[0].count, ny = level.axis[1].count, nz = level.axis[2].count;
+    for (std::int64_t kz = lo[2]; kz <= hi[2]; ++kz) {
+      const std::int64_t z_row = (kz < 0 ? kz + nz : (kz >= nz ? kz - nz : kz)) * ny;
+      for (std::int64_t ky = lo[1]; ky <= hi[1]; ++ky) {
+        const std::int64_t row = (z_row + (ky < 0 ? ky + ny : (ky >= ny ? ky - ny : ky))) * nx;
+        auto run = [&](std::int64_t from, std::int64_t to) {
+          const std::int32_t first = level.start[static_cast<std::size_t>(row + from)], last = level.start[static_cast<std::size_t>(row + to + 1)];
+          if (first < last) visit(level.first_slot + first, level.first_slot + last);
+        };
+        if (lo[0] < 0) { run(lo[0] + nx, nx - 1); run(0, hi[0]); }
+        else if (hi[0] >= nx) { run(lo[0], nx - 1); run(0, hi[0] - nx); }
+        else run(lo[0], hi[0]);
+      }
+    }
+  }
+}
+}  // namespace venato::dem

@@ -1,0 +1,62 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+#include "base/context.h"
+#include "dem/case.h"
+
+namespace venato::dem {
+
+struct CounterRecord {           ///< one grain crossing one counter
+  double time_s;                 ///< linear interpolation inside the step
+  Vec3 position_m;               ///< interpolated, periodic directions unwrapped (so displacement from birth is position - birth_position)
+  Vec3 velocity_m_s, spin_rad_s, birth_position_m;
+  double birth_time_s, mass_kg, diameter_m;
+  std::int64_t id;
+  int species;
+};
+struct TimeSeries {
+  std::vector<double> time_s, grain_count, mass_kg, kinetic_energy_j, mean_contacts, max_speed_m_s, top_z_m;
+  std::vector<std::vector<double>> counter_mass_kg;    ///< [counter][sample] cumulative
+  std::vector<std::vector<Vec3>> wall_force_n;         ///< [wall][sample] mean over the sampling interval
+};
+struct Snapshot {                ///< all grains alive, sorted by id; periodic directions unwrapped
+  double time_s;
+  std::vector<std::int64_t> id;
+  std::vector<Vec3> position_m;
+  std::vector<Vec3> velocity_m_s;
+  std::vector<float> radius_m;
+  std::vector<std::int32_t> species;
+};
+struct CaseResult {
+  double time_step_s = 0;
+  std::int64_t steps = 0;
+  std::vector<std::vector<CounterRecord>> records;     ///< [counter], in order of time, then id
+  TimeSeries series;
+  std::vector<std::vector<Snapshot>> snapshots;        ///< [plan][frame]
+  std::vector<GrainRecord> final_state;                ///< sorted by id
+  double mass_put_in_kg = 0, mass_removed_kg = 0, mass_lost_box_kg = 0, mass_left_kg = 0;   ///< book closes to rounding
+  std::vector<double> rain_starved_kg;
+  double max_speed_seen_m_s = 0, max_overlap_seen = 0; ///< overlap / radius of the smaller grain
+  double particle_steps = 0, wall_clock_s = 0;         ///< wall_clock_s is of this process only; never stored with data
+  std::vector<std::string> warnings;                   ///< e.g. coarse graining too coarse for an orifice
+};
+
+struct CaseCost { double particles, steps, particle_steps, memory_bytes, seconds; };   ///< before running: for validate and the progress bar
+CaseCost estimate_cost(const Case& c, int threads);
+double choose_time_step(const Case& c);                ///< design: min(20 % Rayleigh, 10 % Hertz) over the smallest grain and all materials
+
+struct RunOptions {
+  std::filesystem::path checkpoint;                    ///< empty = none; exists = resume from it, bit for bit
+  double checkpoint_every_wall_s = 30;
+  std::filesystem::path vtk_folder;
+  bool profile = false;
+};
+/// Runs the case to its end. Same case and seed: same bytes for any thread count, interrupted and resumed or not.
+/// \throws WorkError "grain 812 at (…) reached 14 m/s at t = … (limit …): likely cause …" instead of a blow-up; Interrupted after
+/// writing the checkpoint when context.stop is set.
+CaseResult run_case(const Case& c, const RunOptions& options, Context& context);
+
+/// Results to and from HDF5 (base/h5), so that analysis can be repeated without the DEM.
+void write_case_result(const std::filesystem::path& file, const Case& c, const CaseResult& r);
+}  // namespace venato::dem

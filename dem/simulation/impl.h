@@ -1,0 +1,140 @@
+#pragma once
+/// Inside of Simulation. One function per phase of the step, each in its own file; see step.cpp for the order.
+#include <array>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "dem/contact/eepa/law.h"
+#include "dem/contact/hertz_mindlin/law.h"
+#include "dem/neighbours/cell_grid.h"
+#include "dem/neighbours/pair_list.h"
+#include "dem/simulation/simulation.h"
+#include "dem/walls/wall_model.h"
+
+namespace venato::dem {
+
+/// What a touching pair reads besides the spheres: one cache line.
+struct alignas(64) Motion {
+  Trio velocity, spin;
+  double inverse_mass;   ///< 0 = frozen
+  double mass;
+};
+struct Load { Trio force, torque; };
+struct GrainCard {       ///< cold data
+  GrainId id;
+  std::int32_t species, material;
+  std::array<std::int32_t, 3> image;   ///< unwrapped = position + image * box length
+  std::uint8_t frozen, removed;
+};
+
+/// Materials pairs -> law, for grains and walls alike.
+template <class L>
+struct LawTable {
+  std::vector<L> law;
+  std::size_t materials = 0;
+  const L& of(std::int32_t a, std::int32_t b) const { return law[static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b)]; }
+};
+using AnyLawTable = std::variant<LawTable<HertzMindlin>, LawTable<Eepa>>;
+
+struct WallContact {
+  std::int32_t wall;
+  ContactHistory history;
+  Trio normal;           ///< from the grain into the wall, of the last step
+  double overlap;
+  ContactForce force;
+  Trio on_grain, torque_on_grain;
+};
+struct WallCandidate { std::int32_t wall, first_triangle, triangle_count; };
+/// Which walls each grain may touch, and its wall contacts with their histories. Rows by slot.
+struct WallList {
+  std::vector<std::int32_t> first;            ///< [slot + 1] into candidate
+  std::vector<WallCandidate> candidate;
+  std::vector<int> triangle;
+  std::vector<std::int32_t> contact_first;    ///< [slot + 1] room for contacts
+  std::vector<std::uint8_t> contact_count;    ///< [slot] in use
+  std::vector<WallContact> contact;
+};
+
+/// Sums of one block of grains; blocks do not depend on the thread count, and are added in order.
+struct BlockBook {
+  double moved2 = 0, speed2 = 0, overlap = 0;
+  GrainId fastest = -1;
+  std::int64_t contacts = 0;
+  ContactLoss loss;
+  double wall_work = 0;
+  std::vector<WallLoad> wall;
+  std::vector<Crossing> crossing;
+};
+
+inline constexpr std::int64_t kGrainsPerBlock = 256;
+
+struct Simulation::Impl {
+  explicit Impl(const SimulationSetup& s);
+
+  // set-up
+  SimulationSetup setup;
+  AnyLawTable laws;
+  PeriodicBox box;
+  std::array<double, 3> snap{};               ///< see snapped()
+  std::vector<Trio> image_shift;
+  std::vector<Counter> counters;
+
+  // state
+  std::vector<Sphere> sphere;
+  std::vector<Motion> motion;
+  std::vector<Load> load;
+  std::vector<GrainCard> card;
+  std::vector<std::int32_t> slot_of_id;       ///< -1 = removed
+  PairList pairs, spare_pairs;
+  WallList wall_list;
+  std::vector<WallModel> walls;
+  std::vector<Vec3> wall_impulse;
+  std::vector<WallLoad> wall_load;
+  std::int64_t step_count = 0;
+  ContactLoss lost;
+  double wall_work = 0;
+
+  // neighbour list book-keeping
+  CellGrid grid;
+  std::vector<Sphere> sphere_at_build;
+  std::int64_t listed = 0;                    ///< grains in the list; later slots are new
+  double skin = 0;
+  std::int64_t step_of_build = 0;
+  bool list_valid = false, forces_valid = false;
+  bool one_material = true;                   ///< all grains of one material: law parameters stay in the batch
+  std::vector<Crossing> crossings;
+  std::vector<BlockBook> books;
+  StepStatistics stats;
+
+  std::int64_t grains() const { return static_cast<std::int64_t>(sphere.size()); }
+  std::int64_t blocks() const { return (grains() + kGrainsPerBlock - 1) / kGrainsPerBlock; }
+  double time() const { return static_cast<double>(step_count) * setup.time_step_s; }
+  std::size_t slot(GrainId id) const;         ///< \throws UsageError for an unknown id
+
+  // the step
+  void step_once();
+  void evaluate();
+  void move_walls(double time_s);
+  void kick_and_drift();
+  bool list_is_stale() const;
+  void rebuild_list();
+  void rebuild_walls(const std::vector<std::int32_t>& old_slot);
+  void pair_forces(double dt);
+  void gather_and_kick(double dt);            ///< sums pair forces, adds walls and gravity, second half kick (dt = 0: no kick)
+  void settle_books(double dt);
+  template <class L>
+  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book, std::vector<WallContact>& scratch);
+
+  // helpers
+  /// Rounds a displacement to the grid of 2^-52 of the box size in periodic directions: positions are then exact multiples of one quantum, so that
+  /// wrapping and images are exact and a pair across a face moves bit for bit as one in the middle.
+  double snapped(int axis, double v) const { return (v + snap[static_cast<std::size_t>(axis)]) - snap[static_cast<std::size_t>(axis)]; }
+  Vec3 unwrapped(std::size_t s) const;
+  Vec3 wrapped(const Vec3& p) const;
+  std::array<double, 3> wrap_correction(const Sphere& s) const;   ///< to add to get inside the box
+  GrainId add(const GrainInput& g);
+};
+
+void check_setup(const SimulationSetup& s);
+}  // namespace venato::dem

@@ -1,0 +1,92 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "dem/simulation/impl.h"
+
+namespace venato::dem {
+namespace {
+constexpr double kSameContact = 0.8;   // cosine: from step to step a contact's normal turns by far less, corners of a mesh differ by more
+
+/// Contact of the last step that this touch continues, by the best match of normals; so the history survives going from triangle to triangle.
+const WallContact* continued(std::span<const WallContact> before, std::uint32_t& taken, std::int32_t wall, const Trio& normal) {
+  const WallContact* best = nullptr;
+  std::size_t at = 0;
+  double best_match = kSameContact;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (before[k].wall != wall || (k < 32 && (taken >> k & 1u))) continue;
+    const double match = dot(before[k].normal, normal);
+    if (match > best_match) best = &before[k], best_match = match, at = k;
+  }
+  if (best && at < 32) taken |= 1u << at;
+  return best;
+}
+
+ContactGeometry wall_frame(const Sphere& x, const Motion& m, const Trio& n, const Trio& n_before, double overlap, const Trio& wall_velocity,
+                           const Trio& wall_spin, double dt) {
+  const Trio dv = wall_velocity - m.velocity, sum = n + n_before;
+  const Trio n_half = (1 / length(sum)) * sum;
+  ContactGeometry g;
+  g.overlap = overlap;
+  g.approach = -dot(dv, n);
+  g.slide = cross(x.r * m.spin, n_half) - across(dv, n_half);   // lever R on walls: the spin identities of verification.md 3.1 hold exactly
+  g.roll = across(m.spin - wall_spin, n);
+  g.normal = n;
+  g.turn = frame_turn(n_before, n, n, 0.5 * dot(m.spin + wall_spin, n) * dt);
+  g.r_eff = x.r;                                                // R* = R on every wall, also inside cylinders
+  g.m_eff = m.mass;
+  g.i_roll = 1.4 * m.mass * x.r * x.r;
+  return g;
+}
+}  // namespace
+
+template <class L>
+void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book, std::vector<WallContact>& scratch) {
+  const Sphere& x = sphere[s];
+  const Motion& m = motion[s];
+  WallContact* row = wall_list.contact.data() + wall_list.contact_first[s];
+  const std::span<const WallContact> before(row, wall_list.contact_count[s]);
+  const Vec3 centre = wrapped(Vec3(x.x, x.y, x.z));
+  std::uint32_t taken = 0;
+  scratch.clear();
+  for (std::int32_t k = wall_list.first[s]; k < wall_list.first[s + 1]; ++k) {
+    const WallCandidate& c = wall_list.candidate[static_cast<std::size_t>(k)];
+    const WallModel& w = walls[static_cast<std::size_t>(c.wall)];
+    if (!w.present(time())) continue;
+    const int* triangle = wall_list.triangle.data() + c.first_triangle;
+    const MeshTouches touches = touch_wall(w, w.into_wall_frame(centre), x.r, triangle, triangle + c.triangle_count);
+    for (int t = 0; t < touches.count; ++t) {
+      const Vec3 normal = w.direction_to_world(touches.touch[t].normal), at = w.point_to_world(touches.touch[t].point);
+      const Trio n = to_trio(normal), wall_velocity = to_trio(w.velocity_at(at, normal)), wall_spin = to_trio(w.wall.motion.rotation_rad_s);
+      const WallContact* old = continued(before, taken, c.wall, n);
+      WallContact now{c.wall, old ? old->history : ContactHistory{}, n, x.r - touches.touch[t].distance, {}, {}, {}};
+      const ContactHistory earlier = now.history;
+      const ContactGeometry g = wall_frame(x, m, n, old ? old->normal : n, now.overlap, wall_velocity, wall_spin, dt);
+      const L& law = table.of(card[s].material, w.wall.material);
+      now.force = law.force(g, now.history, dt);
+      now.on_grain = now.force.tangential - now.force.normal * n;
+      now.torque_on_grain = x.r * cross(n, now.force.tangential) + now.force.rolling;
+      sum.force = sum.force + now.on_grain;
+      sum.torque = sum.torque + now.torque_on_grain;
+      const Vec3 on_wall = -to_vec3(now.on_grain);
+      book.wall[static_cast<std::size_t>(c.wall)].force_n += on_wall;
+      book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
+          (at - w.wall.motion.rotation_centre - w.pose.offset_m).cross(on_wall) - to_vec3(now.force.rolling);
+      book.overlap = std::max(book.overlap, now.overlap / x.r);
+      ++book.contacts;
+      if (setup.track_energy && dt > 0) {
+        const ContactLoss loss = law.loss(g, earlier, now.history, now.force, dt);
+        book.loss.normal += loss.normal, book.loss.tangential_damping += loss.tangential_damping;
+        book.loss.sliding += loss.sliding, book.loss.rolling += loss.rolling;
+        const Trio push = old ? 0.5 * (old->on_grain + now.on_grain) : 0.5 * now.on_grain;   // trapezoid
+        book.wall_work += (dot(push, wall_velocity) + dot(now.force.rolling, wall_spin)) * dt;
+      }
+      scratch.push_back(now);
+    }
+  }
+  std::copy(scratch.begin(), scratch.end(), row);
+  wall_list.contact_count[s] = static_cast<std::uint8_t>(scratch.size());
+}
+template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, Load&, BlockBook&, std::vector<WallContact>&);
+template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, Load&, BlockBook&, std::vector<WallContact>&);
+}  // namespace venato::dem

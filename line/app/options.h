@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+namespace venato::line::app {
+
+/// What the command line said. Filled by CLI11 in parse.cpp.
+struct Options {
+  std::string command;
+  std::filesystem::path input, out, vein_map, graphic;
+  std::vector<std::string> overrides;
+  int threads = 0;                  ///< 0 = all cores this process may use
+  bool quiet = false, json_log = false, schema = false;
+  double vein_pitch_mm = 0, graphic_pitch_mm = 0;   ///< 0 = from the file
+};
+struct Parsed {
+  Options options;
+  bool finished = false;            ///< help or version was printed, or the usage was wrong: return exit_code
+  int exit_code = 0;
+};
+Parsed parse(int argc, const char* const* argv);
+}  // namespace venato::line::app

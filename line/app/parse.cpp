@@ -1,0 +1,81 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "base/version.h"
+#include "line/app/options.h"
+namespace venato::line::app {
+namespace {
+constexpr int kUsage = 2;
+
+void add_common(CLI::App& sub, Options& o) {
+  sub.add_option("--threads", o.threads, "threads to use (default: all cores of this process); results do not depend on it")->check(CLI::Range(1, 1024))->type_name("N");
+  sub.add_flag("--quiet", o.quiet, "warnings and errors only");
+  sub.add_flag("--json-log", o.json_log, "log and progress as one JSON object per line");
+}
+void add_out(CLI::App& sub, Options& o) { sub.add_option("-o,--out", o.out, "output folder (made when missing)")->required()->type_name("OUT"); }
+void add_set(CLI::App& sub, Options& o) {
+  sub.add_option("--set", o.overrides, "override one key of the config, e.g. --set /belt_speed_m_s=0.12; may be given again")
+      ->type_name("/POINTER=VALUE")
+      ->allow_extra_args(false);
+}
+}  // namespace
+
+Parsed parse(int argc, const char* const* argv) {
+  Parsed parsed;
+  Options& o = parsed.options;
+  CLI::App app{"Venato predicts where the veins of a full-body decorated ceramic slab end up and makes the inkjet print land on them.", "venato"};
+  app.set_version_flag("--version", "venato " + version_string());
+  app.require_subcommand(1);
+  app.footer("Examples:\n  venato validate configs/demo_slab.json\n  venato run configs/demo_slab.json -o out/demo\n  venato run configs/demo_slab.json -o out/fast --set /belt_speed_m_s=0.12\n"
+             "Exit codes: 0 done, 1 the work failed, 2 wrong usage or config, 130 stopped (run again to resume).\nFinished operators are kept in $VENATO_STORE (default ~/.cache/venato).");
+
+  auto* run = app.add_subcommand("run", "the whole line: commands, operators, slab, vein map, registration, score, masks, report");
+  run->add_option("CONFIG", o.input, "line config (format venato-line)")->required();
+  add_out(*run, o), add_set(*run, o), add_common(*run, o);
+  run->footer("Example:\n  venato run configs/demo_slab.json -o out/demo --threads 2\nExit 1 when the registration does not succeed; the report is written all the same and says why.");
+
+  auto* validate = app.add_subcommand("validate", "all mistakes of a config at once, then what a run would cost");
+  validate->add_option("CONFIG", o.input, "line config")->required();
+  add_set(*validate, o), add_common(*validate, o);
+  validate->footer("Example:\n  venato validate configs/demo_slab.json --set /chain/3/peak_pressure_mpa=45");
+
+  auto* describe = app.add_subcommand("describe-config", "reference of every key of a line config");
+  describe->add_flag("--schema", o.schema, "as JSON Schema for editors");
+  describe->footer("Example:\n  venato describe-config --schema > venato-line.schema.json");
+
+  auto* dem = app.add_subcommand("dem", "one particle simulation (slice, rig, hopper)");
+  dem->add_option("CASE", o.input, "case file (format venato-dem)")->required();
+  add_out(*dem, o), add_set(*dem, o), add_common(*dem, o);
+  dem->footer("Example:\n  venato dem configs/heap.json -o out/heap\nWrites HDF5, CSV and, when the case asks for them, ParaView files.");
+
+  auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab");
+  sync->add_option("--vein-map", o.vein_map, "vein map or picture of the slab (TIFF, PNG, JPEG)")->required()->type_name("V");
+  sync->add_option("--graphic", o.graphic, "the inkjet graphic")->required()->type_name("G");
+  sync->add_option("--vein-pitch-mm", o.vein_pitch_mm, "pixel size of the vein map (default: dpi in the file)")->check(CLI::Range(0.001, 1000.0))->type_name("P");
+  sync->add_option("--graphic-pitch-mm", o.graphic_pitch_mm, "pixel size of the graphic (default: dpi in the file)")->check(CLI::Range(0.001, 1000.0))->type_name("P");
+  add_out(*sync, o), add_common(*sync, o);
+  sync->footer("Example:\n  venato sync --vein-map out/demo/vein_map.tif --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
+               "Exit 1 when the pictures do not belong together.");
+
+  auto* report = app.add_subcommand("report", "rebuilds report.html of a finished run");
+  report->add_option("RUN", o.input, "run folder")->required();
+  add_common(*report, o);
+  report->footer("Example:\n  venato report out/demo");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    parsed.finished = true;
+    if (e.get_exit_code() == 0) {
+      app.exit(e, std::cout, std::cerr);
+      return parsed;
+    }
+    std::cerr << "venato: " << e.what() << "\nRun with --help for more information.\n";
+    parsed.exit_code = kUsage;
+    return parsed;
+  }
+  o.command = app.get_subcommands().front()->get_name();
+  return parsed;
+}
+}  // namespace venato::line::app

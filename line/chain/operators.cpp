@@ -1,0 +1,59 @@
+#include "line/chain/operators.h"
+
+#include <chrono>
+
+#include "base/error.h"
+#include "base/store/store.h"
+namespace venato::line {
+namespace {
+constexpr const char* kKind = "operator";
+
+std::filesystem::path checkpoint_folder(const Store& store, const std::string& key) {
+  auto folder = store.checkpoint_path(kKind, key);
+  folder += ".d";
+  return folder;
+}
+
+std::optional<Operator> from_store(const Store& store, const std::string& key, Log& log) {
+  const auto file = store.find(kKind, key);
+  if (!file) return std::nullopt;
+  try {
+    return read_operator(*file);
+  } catch (const WorkError& e) {
+    log.warn("operator in the store is not readable and is made again: " + std::string(e.what()));
+    return std::nullopt;
+  }
+}
+}  // namespace
+
+std::string operator_key(const LineConfig& config, const ConfiguredStage& stage) {
+  const std::string inputs = "{\"basics\":" + operator_inputs_json(config.basics) + ",\"stage\":" + stage.inputs_json +
+                             ",\"files\":" + [&] {
+                               const auto files = file_hashes_json(stage.inputs_json, config.file.parent_path());
+                               return files.empty() ? std::string("{}") : files;
+                             }() + "}";
+  return store_key(kKind, inputs, {}, std::string(stage.descriptor->name) + " " + std::string(stage.descriptor->code_version));
+}
+
+StageOperator obtain_operator(const LineConfig& config, const ConfiguredStage& stage, Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  StageOperator out;
+  out.key = operator_key(config, stage);
+  if (auto found = from_store(context.store, out.key, context.log)) {
+    out.op = std::move(*found);
+    out.cached = true;
+  } else {
+    const auto folder = checkpoint_folder(context.store, out.key);
+    std::error_code ec;
+    std::filesystem::create_directories(folder, ec);
+    if (ec) throw WorkError("cannot create the checkpoint folder " + folder.string() + ": " + ec.message());
+    out.op = stage.stage.characterise(config.basics, folder, context);
+    const auto file = context.store.put(kKind, out.key, stage.descriptor->code_version, [&](const std::filesystem::path& tmp) { write_operator(tmp, out.op); });
+    std::filesystem::remove_all(folder, ec);
+    // Read back what was stored: a first run and a run from the store then work on the same bytes.
+    out.op = read_operator(file);
+  }
+  out.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+}  // namespace venato::line

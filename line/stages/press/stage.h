@@ -1,0 +1,5 @@
+#pragma once
+#include "line/stages/stage_api.h"
+namespace venato::line::press {
+StageDescriptor descriptor();
+}  // namespace venato::line::press

@@ -1,0 +1,120 @@
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/io/atomic_file.h"
+#include "graphics/graphic.h"
+#include "sync/command/inputs.h"
+#include "sync/command/map_csv.h"
+#include "sync/command/noise_floor.h"
+#include "sync/command/score_text.h"
+#include "sync/command/sync_command.h"
+#include "sync/overlay/overlay.h"
+
+namespace venato::sync {
+namespace {
+
+constexpr const char* kBeforeDefinition = "the graphic as it would be printed without synchronisation: its top-left corner on the slab's, unturned";
+constexpr const char* kAfterDefinition = "the graphic moved by print_from_green (map.csv)";
+
+const char* tone_text(graphics::VeinTone tone) { return tone == graphics::VeinTone::darker ? "darker" : "lighter"; }
+
+void tell_input(const char* what, const SyncInput& input, Log& log) {
+  char text[200];
+  const auto& raster = input.fraction;
+  std::snprintf(text, sizeof text, ": %.4f mm/px (%s), %.0f x %.0f mm, veins on %.1f %%", input.pitch_in_file_m * 1e3,
+                input.pitch_from_file ? "from the file" : "given", raster.width_m() * 1e3, raster.height_m() * 1e3, 100 * vein_share(raster));
+  log.info(std::string(what) + text + (input.is_fraction_map ? " (fractions)" : std::string(" (") + tone_text(input.tone) + " than the body)"));
+}
+
+std::string error_text(const Metrics& m) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f mm on %.0f %%", m.centreline_median_m * 1e3, 100 * m.matched_length);
+  return text;
+}
+
+void remove_stale(const std::filesystem::path& out) {
+  // Results of an earlier, successful call must not stand beside a failure.
+  for (const char* name : {"score.json", "map.csv", "overlay.png", "misfit.png"}) {
+    std::error_code error;
+    std::filesystem::remove(out / name, error);
+  }
+}
+
+/// Two pictures without a vein between them have nothing to register; say so in the result like every other failure.
+std::string no_veins_reason(const SyncInput& vein_map, const SyncInput& graphic) {
+  for (const auto* input : {&vein_map, &graphic})
+    if (!(vein_share(input->fraction) > 0)) return "no veins found in " + input->file.filename().string();
+  return "";
+}
+
+struct Registered {
+  EvidencePair evidence;
+  Registration registration;
+};
+/// Every attempt has to pass the same gates; when none does, the reasons of all are told.
+Registered register_first_that_passes(std::vector<EvidencePair> pairs, const RegistrationConfig& config, Context& context) {
+  std::string reasons;
+  for (std::size_t k = 0;; ++k) {
+    EvidencePair& pair = pairs[k];
+    Registration result = register_veins(pair.green, pair.print, config, std::nullopt, context);
+    reasons += (k ? "; " : "") + (pairs.size() > 1 ? pair.name + ": " : std::string()) + result.reason;
+    if (result.success || k + 1 == pairs.size()) {
+      if (!result.success) result.reason = reasons;
+      return {std::move(pair), std::move(result)};
+    }
+    context.log.info("not registered with " + pair.name + " (" + result.reason + "); trying " + pairs[k + 1].name);
+  }
+}
+
+}  // namespace
+
+int run_sync(const SyncOptions& options, Context& context) {
+  const SyncInput vein_map = load_input(options.vein_map, options.vein_pitch_m, "--vein-pitch-mm", options.plan, options.tone_given);
+  const SyncInput graphic = load_input(options.graphic, options.graphic_pitch_m, "--graphic-pitch-mm", options.plan, options.tone_given);
+  make_output_folder(options.out);
+  remove_stale(options.out);
+  tell_input("vein map", vein_map, context.log);
+  tell_input("graphic", graphic, context.log);
+
+  auto [evidence, registration] = register_first_that_passes(evidence_pairs(vein_map, graphic), options.registration, context);
+  if (const std::string reason = no_veins_reason(vein_map, graphic); registration.success && !reason.empty()) {
+    registration.success = false;  // registered on lightness alone: there is no line whose error could be measured
+    registration.reason = reason;
+  }
+  const graphics::Raster8 body = vein_mask(vein_map.fraction);
+  const auto print_on_green = [&](const Transform& map) { return mask_on_green(graphic.fraction, map, body.width, body.height, body.pitch_m); };
+
+  ScoreReport report;
+  report.before_definition = kBeforeDefinition;
+  report.after_definition = kAfterDefinition;
+  report.evidence = evidence.name;
+  report.best_reachable_definition = kNoiseFloorDefinition;
+  const graphics::Raster8 before = print_on_green(Transform{});
+  report.before = score_masks(body, before, options.score);
+  graphics::Raster8 after;
+  OverlayTexts texts;
+  if (registration.success) {
+    after = print_on_green(registration.print_from_green);
+    report.after = score_masks(body, after, options.score);
+    report.pose_only = score_masks(body, print_on_green(registration.pose_only), options.score);
+    report.best_reachable = noise_floor(evidence, vein_map.fraction, registration, options.registration, options.score, context);
+    if (!report.best_reachable) report.best_reachable_definition += "; not available: the slab's own copy did not pass the gates";
+    texts.note =
+        "median centre-line error on the matched share of the print: before " + error_text(*report.before) + ", after " + error_text(*report.after);
+  } else {
+    texts.left_title = "not registered: graphic as it came";
+    texts.note = "not registered: " + registration.reason;
+  }
+
+  graphics::write_png(options.out / "overlay.png", overlay_figure(body, before, after, texts));
+  if (registration.success) {
+    graphics::write_png(options.out / "misfit.png", misfit_figure(body, centreline_residuals(body, after, options.score)));
+    write_text_atomically(options.out / "map.csv", map_csv_text(registration.print_from_green, registration.sigma_m, vein_map.fraction.width_m(),
+                                                                vein_map.fraction.height_m()));
+  }
+  write_text_atomically(options.out / "score.json", score_json_text(report, registration));
+  context.log.info(registration.success ? "registered; " + texts.note : texts.note);
+  return registration.success ? 0 : 1;
+}
+
+}  // namespace venato::sync

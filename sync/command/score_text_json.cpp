@@ -1,0 +1,76 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sync/command/score_text.h"
+
+namespace venato::sync {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Six significant digits: micrometres of a millimetre score, without the noise of the last bits.
+Json number(double v) {
+  if (!std::isfinite(v)) return nullptr;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", v);
+  return std::stod(text);
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Json contract(const std::optional<Metrics>& m) {
+  const auto value = [&](double Metrics::*member, double unit = 1) { return number(m ? (*m).*member / unit : kNone); };
+  return {{"centreline_error_mm", {{"median", value(&Metrics::centreline_median_m, 1e-3)}, {"p95", value(&Metrics::centreline_p95_m, 1e-3)}}},
+          {"matched_length", value(&Metrics::matched_length)},
+          {"boundary_f1",
+           {{"1mm", value(&Metrics::boundary_f1_1mm)}, {"2mm", value(&Metrics::boundary_f1_2mm)}, {"3mm", value(&Metrics::boundary_f1_3mm)}}},
+          {"dice", value(&Metrics::dice)}};
+}
+
+Json more(const std::optional<Metrics>& m) {
+  if (!m) return nullptr;
+  return {{"centreline_offset_mm", number(m->centreline_offset_m * 1e3)},
+          {"missing_length_mm", number(m->missing_length_m * 1e3)},
+          {"extra_length_mm", number(m->extra_length_m * 1e3)},
+          {"iou", number(m->iou)},
+          {"cl_dice", number(m->cl_dice)},
+          {"hd95_mm", number(m->hd95_m * 1e3)},
+          {"assd_mm", number(m->assd_m * 1e3)}};
+}
+
+}  // namespace
+
+std::string score_json_text(const ScoreReport& report, const Registration& registration) {
+  Json out;
+  out["before"] = contract(report.before);
+  out["after"] = contract(report.after);
+  out["best_reachable"] = contract(report.best_reachable);
+  out["registration"] = {{"success", registration.success}, {"reason", registration.reason}, {"confidence", number(registration.confidence)}};
+  out["before_definition"] = report.before_definition;
+  out["after_definition"] = report.after_definition;
+  out["best_reachable_definition"] = report.best_reachable_definition;
+  Json& details = out["details"];
+  details["evidence"] = report.evidence;
+  details["pose_only"] = report.pose_only ? contract(report.pose_only) : Json(nullptr);
+  details["before"] = more(report.before);
+  details["after"] = more(report.after);
+  details["best_reachable"] = more(report.best_reachable);
+  details["internal_residual_mm"] = number(registration.internal_residual_m * 1e3);
+  details["gates"] = Json::array();
+  for (const Gate& gate : registration.gates)
+    details["gates"].push_back(
+        {{"name", gate.name}, {"value", number(gate.value)}, {"limit", number(gate.limit)}, {"passed", gate.passed}, {"meaning", gate.meaning}});
+  details["zones"] = Json::array();
+  for (const ZoneConfidence& zone : registration.zones)
+    details["zones"].push_back({{"x_mm", number(zone.x_m * 1e3)},
+                                {"y_mm", number(zone.y_m * 1e3)},
+                                {"width_mm", number(zone.width_m * 1e3)},
+                                {"height_mm", number(zone.height_m * 1e3)},
+                                {"blocks", zone.blocks},
+                                {"residual_mm", number(zone.residual_m * 1e3)},
+                                {"sigma_mm", number(zone.sigma_m * 1e3)},
+                                {"usable", zone.usable}});
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace venato::sync

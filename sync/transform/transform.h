@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+namespace venato::sync {
+using Point = Eigen::Vector2d;  ///< metres; x across, y along, origin top-left corner of the frame
+
+/// Smooth displacement field: uniform cubic B-spline coefficients over a rectangle starting at `origin_m`.
+/// Coefficient (i, j) is centred on origin_m + spacing_m * (i - 1, j - 1); the rectangle is [0, (nx - 3)] x [0, (ny - 3)] spacings from origin_m.
+/// Outside of it the position is clamped to the rectangle first (constant continuation), so that no evaluation can explode.
+struct BSplineField {
+  Point origin_m = Point::Zero();
+  double spacing_m = 0;                 ///< 0 = no displacement
+  int nx = 0, ny = 0;                   ///< control points
+  std::vector<double> cx, cy;           ///< [ny][nx] metres
+  Point displacement(Point p) const;
+  Eigen::Matrix2d gradient(Point p) const;   ///< d displacement / d position; 0 across an edge that the position was clamped to
+};
+/// Field of zeros whose rectangle covers [0, width_m] x [0, height_m] with the given control point spacing. \pre all > 0
+BSplineField make_zero_field(double width_m, double height_m, double spacing_m);
+/// displacement() of n points (x0_m + k dx_m, y_m): the same values, several times faster (one row of 1-D splines).
+/// \param ux, uy [m] n values each are written
+void displacement_row(const BSplineField& u, double y_m, double x0_m, double dx_m, int n, double* ux, double* uy);
+
+/// print_from_green(p) = A (p + u(p)) + t : where in the print (graphic) frame the ink lies that belongs on slab point p.
+struct Transform {
+  Eigen::Matrix2d a = Eigen::Matrix2d::Identity();
+  Point t = Point::Zero();
+  BSplineField u;
+  Point operator()(Point green_m) const;
+  Eigen::Matrix2d jacobian(Point green_m) const;
+  /// Damped Newton inverse, residual below 1e-9 m in the green frame. \throws WorkError where the map folds or A is singular.
+  Point inverse(Point print_m) const;
+};
+
+/// Smallest and largest Jacobian determinant of p -> p + u(p) on a grid of `step_m` over [0, width_m] x [0, height_m].
+/// All four combinations of forward and backward differences are taken: the central difference misses chequerboard folds.
+/// The map does not fold on the grid if min > 0. Source: Liu et al., IJCV 2024 (arXiv 2212.06060).
+struct JacobianRange { double min = 1, max = 1; };
+JacobianRange jacobian_range(const BSplineField& u, double width_m, double height_m, double step_m);
+}  // namespace venato::sync

@@ -1,0 +1,56 @@
+#include "graphics/colour/srgb.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+namespace venato::graphics {
+namespace {
+TEST(Srgb, EverySampleRoundTrips) {
+  for (int v = 0; v < 256; ++v) EXPECT_EQ(linear_to_srgb(srgb_to_linear(static_cast<std::uint8_t>(v))), v);
+}
+TEST(Srgb, KnownValues) {
+  // IEC 61966-2-1: sRGB 188 is half the light to 0.25 %; the ends are exact; values beyond are clamped.
+  EXPECT_NEAR(srgb_to_linear(188), 0.5028865, 1e-6);
+  EXPECT_EQ(srgb_to_linear(0), 0);
+  EXPECT_NEAR(srgb_to_linear(255), 1, 1e-15);
+  EXPECT_EQ(linear_to_srgb(-1), 0);
+  EXPECT_EQ(linear_to_srgb(2), 255);
+  EXPECT_NEAR(srgb_encode(0.5), 0.7353570, 1e-6);
+}
+TEST(Lab, KnownColours) {
+  // Widely published D65 values of the sRGB primaries (e.g. Lindbloom's calculator), to its printed digits.
+  const auto near = [](const Srgb8& c, Lab want, double tolerance) {
+    const Lab got = lab_from_srgb(c);
+    EXPECT_NEAR(got.l, want.l, tolerance);
+    EXPECT_NEAR(got.a, want.a, tolerance);
+    EXPECT_NEAR(got.b, want.b, tolerance);
+  };
+  near({255, 255, 255}, {100, 0, 0}, 1e-6);
+  near({0, 0, 0}, {0, 0, 0}, 1e-9);
+  near({255, 0, 0}, {53.24, 80.09, 67.20}, 0.02);
+  near({0, 0, 255}, {32.30, 79.19, -107.86}, 0.02);
+  near({119, 119, 119}, {50.03, 0, 0}, 0.02);
+}
+struct Pair {
+  Lab x, y;
+  double de;
+};
+TEST(DeltaE2000, SharmaData) {
+  // Pairs of Sharma, Wu, Dalal (2005), table 1, printed to four digits.
+  const Pair pairs[] = {{{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},
+                        {{50, 3.1571, -77.2803}, {50, 0, -82.7485}, 2.8615},
+                        {{50, 2.8361, -74.0200}, {50, 0, -82.7485}, 3.4412},
+                        {{50, -1.3802, -84.2814}, {50, 0, -82.7485}, 1.0000},
+                        {{50, 0, 0}, {50, -1, 2}, 2.3669},
+                        {{50, 2.4900, -0.0010}, {50, -2.4900, 0.0009}, 7.1792},
+                        {{50, 2.5, 0}, {50, 0, -2.5}, 4.3065},
+                        {{50, 2.5, 0}, {73, 25, -18}, 27.1492},
+                        {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
+                        {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082}};
+  for (const auto& p : pairs) {
+    EXPECT_NEAR(delta_e2000(p.x, p.y), p.de, 5e-5);
+    EXPECT_NEAR(delta_e2000(p.y, p.x), p.de, 5e-5);
+  }
+}
+}  // namespace
+}  // namespace venato::graphics
