@@ -54,7 +54,9 @@ struct WallMotion {
   Vec3 rotation_centre = Vec3::Zero(), rotation_rad_s = Vec3::Zero();
   Vec3 vibration_amplitude_m = Vec3::Zero();              ///< offset = amplitude * sin(2 pi f t' + phase) - amplitude * sin(phase)
   double vibration_hz = 0, vibration_phase_rad = 0;
-  std::vector<Interval> vibrate_when;                     ///< on/off schedule; t' restarts at each `on`; empty = always (if amplitude != 0)
+  /// On/off schedule; t' restarts at each `on`; empty = always (if amplitude != 0). After `off` the wall ends its swing at the next zero of the
+  /// offset (at most one period later) and stays there: a drive does not jump back by an amplitude.
+  std::vector<Interval> vibrate_when;
   Vec3 surface_velocity_m_s = Vec3::Zero();               ///< belt: the wall stays, its surface moves
 };
 
@@ -83,7 +85,8 @@ struct Rain {
   double mass_rate_kg_s = 0;
   std::vector<Interval> when;                  ///< empty = always
   Vec3 velocity_m_s = Vec3::Zero();
-  /// Level control: rain only while the highest grain centre of the region [level_low, level_high] is below level_z_m (NaN = off).
+  /// Level control: rain only while the highest centre of a grain that rests (touches something and is slower than 0.15 m/s), in the columns
+  /// under the region, is below level_z_m (NaN = off).
   double level_z_m = std::numeric_limits<double>::quiet_NaN();
 };
 /// Grains handed over from an earlier stage (position, velocity, spin, diameter, species), put in at their birth time.

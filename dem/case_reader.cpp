@@ -18,18 +18,19 @@ void read_format(ObjectReader& r) {
 
 void read_law(ObjectReader& r, Case& c) {
   r.object("contact", "contact law between grains, and between grains and walls", [&c](ObjectReader& o) {
-    o.pick("law", "contact law",
-           {{"hertz_mindlin_epsd", "free-flowing powder: Hertz-Mindlin with elastic-plastic rolling resistance",
-             [&c](ObjectReader&) { c.law = LawKind::hertz_mindlin_epsd; }},
-            {"eepa", "pressing: edinburgh elasto-plastic adhesion", [&c](ObjectReader& b) {
-               c.law = LawKind::eepa;
-               b.number("stiffness_ratio_k2_k1", c.eepa.stiffness_ratio_k2_k1, {1, 1000, ""}, {.help = "unloading over loading stiffness"});
-               b.number("adhesion_ratio_kadh_k1", c.eepa.adhesion_ratio_kadh_k1, {0, 1000, ""}, {.help = "adhesion over loading stiffness"});
-               b.number("exponent", c.eepa.exponent, {1, 1.5, ""}, {.help = "1 linear, 1.5 Hertzian loading", .fallback = 1.5});
-               if (c.eepa.exponent != 1 && c.eepa.exponent != 1.5)
-                 b.issue("exponent", "is neither 1 nor 1.5", "1 = linear, 1.5 = Hertzian; the law is only made for these two");
-               b.number("constant_force_mn", c.eepa.constant_force_n, {-1000, 0, "mN"}, {.help = "f0: constant pull-off force (<= 0)", .fallback = 0.0});
-             }}});
+    o.pick(
+        "law", "contact law",
+        {{"hertz_mindlin_epsd", "free-flowing powder: Hertz-Mindlin with elastic-plastic rolling resistance",
+          [&c](ObjectReader&) { c.law = LawKind::hertz_mindlin_epsd; }},
+         {"eepa", "pressing: edinburgh elasto-plastic adhesion", [&c](ObjectReader& b) {
+            c.law = LawKind::eepa;
+            b.number("stiffness_ratio_k2_k1", c.eepa.stiffness_ratio_k2_k1, {1, 1000, ""}, {.help = "unloading over loading stiffness"});
+            b.number("adhesion_ratio_kadh_k1", c.eepa.adhesion_ratio_kadh_k1, {0, 1000, ""}, {.help = "adhesion over loading stiffness"});
+            b.number("exponent", c.eepa.exponent, {1, 1.5, ""}, {.help = "1 linear, 1.5 Hertzian loading", .fallback = 1.5});
+            if (c.eepa.exponent != 1 && c.eepa.exponent != 1.5)
+              b.issue("exponent", "is neither 1 nor 1.5", "1 = linear, 1.5 = Hertzian; the law is only made for these two");
+            b.number("constant_force_mn", c.eepa.constant_force_n, {-1000, 0, "mN"}, {.help = "f0: constant pull-off force (<= 0)", .fallback = 0.0});
+          }}});
   });
 }
 
@@ -37,15 +38,19 @@ void read_time(ObjectReader& r, Case& c) {
   r.number("duration_s", c.duration_s, {1e-6, 1e4, "s"}, {.help = "simulated time"});
   r.number("expected_max_speed_m_s", c.expected_max_speed_m_s, {1e-3, 100, "m/s"},
            {.help = "fastest relative speed of grains expected (v_max of the Hertz bound); a grain much faster stops the run with an error"});
-  r.object("time_step", "how the step is chosen", [&c](ObjectReader& o) {
-    o.number("rayleigh_fraction", c.rayleigh_fraction, {1e-3, 0.5, ""}, {.help = "part of the smallest grain's Rayleigh time", .fallback = 0.20});
-    o.number("hertz_fraction", c.hertz_fraction, {1e-3, 0.3, ""}, {.help = "part of the shortest Hertz contact", .fallback = 0.10});
-    o.number("fixed_us", c.time_step_s, {0, 1000, "us"}, {.help = "0 = the smaller of the two bounds", .fallback = 0.0});
-  }, false);
+  r.object(
+      "time_step", "how the step is chosen",
+      [&c](ObjectReader& o) {
+        o.number("rayleigh_fraction", c.rayleigh_fraction, {1e-3, 0.5, ""}, {.help = "part of the smallest grain's Rayleigh time", .fallback = 0.20});
+        o.number("hertz_fraction", c.hertz_fraction, {1e-3, 0.3, ""}, {.help = "part of the shortest Hertz contact", .fallback = 0.10});
+        o.number("fixed_us", c.time_step_s, {0, 1000, "us"}, {.help = "0 = the smaller of the two bounds", .fallback = 0.0});
+      },
+      false);
 }
 
 template <class T, class Read>
-void read_list(ObjectReader& r, std::string_view key, std::string_view help, std::size_t min_count, std::size_t max_count, std::vector<T>& out, const Read& read) {
+void read_list(ObjectReader& r, std::string_view key, std::string_view help, std::size_t min_count, std::size_t max_count, std::vector<T>& out,
+               const Read& read) {
   out.clear();
   if (min_count == 0 && !r.has(key) && !r.describing()) return;
   r.objects(key, help, min_count, max_count, [&](ObjectReader& item, std::size_t) {
@@ -75,8 +80,10 @@ void check_periodic(ObjectReader& r, const Case& c) {
   const double needed = 2 * largest_grain(c);  // below that a grain meets its own image, or the same neighbour from both sides
   for (int k = 0; k < 3; ++k)
     if (c.box.periodic[k] && c.box.high[k] - c.box.low[k] < needed)
-      r.issue("box", std::string("the periodic length along ") + kAxis[k] + " is " + mm_text(c.box.high[k] - c.box.low[k]) + ", less than two of the largest grains (" +
-                         mm_text(needed) + ")", "widen the box or lower coarse_graining");
+      r.issue("box",
+              std::string("the periodic length along ") + kAxis[k] + " is " + mm_text(c.box.high[k] - c.box.low[k]) +
+                  ", less than two of the largest grains (" + mm_text(needed) + ")",
+              "widen the box or lower coarse_graining");
 }
 }  // namespace
 
@@ -92,21 +99,29 @@ void read_case(ObjectReader& r, Case& c) {
   check_periodic(r, c);
   read_list(r, "walls", "walls, with their motions", 0, kMaxWalls, c.walls, [&c](ObjectReader& item, Wall& wall) { read_wall(item, c, wall); });
   check_unique(r, "walls", names_of(c.walls));
-  read_list(r, "fills", "blocks of grains placed at the start", 0, kMaxSources, c.fills, [&c](ObjectReader& item, Fill& fill) { read_fill(item, c, fill); });
-  read_list(r, "rains", "regions where grains appear at a mass rate", 0, kMaxSources, c.rains, [&c](ObjectReader& item, Rain& rain) { read_rain(item, c, rain); });
+  read_list(r, "fills", "blocks of grains placed at the start", 0, kMaxSources, c.fills,
+            [&c](ObjectReader& item, Fill& fill) { read_fill(item, c, fill); });
+  read_list(r, "rains", "regions where grains appear at a mass rate", 0, kMaxSources, c.rains,
+            [&c](ObjectReader& item, Rain& rain) { read_rain(item, c, rain); });
   check_unique(r, "rains", names_of(c.rains));
   if (c.fills.empty() && c.rains.empty()) r.issue("", "neither fills nor rains: there would be no grains", "add a fill or a rain");
   read_list(r, "counters", "planes that record the grains which cross them", 0, kMaxCounters, c.counters,
             [&c](ObjectReader& item, Counter& counter) { read_counter(item, c, counter); });
   check_unique(r, "counters", names_of(c.counters));
-  r.object("series", "time series of masses, energy, wall forces", [&c](ObjectReader& o) {
-    o.number("every_s", c.series.every_s, {1e-6, 1000, "s"}, {.help = "sampling interval", .fallback = 0.005});
-  }, false);
+  r.object(
+      "series", "time series of masses, energy, wall forces",
+      [&c](ObjectReader& o) {
+        o.number("every_s", c.series.every_s, {1e-6, 1000, "s"}, {.help = "sampling interval", .fallback = 0.005});
+      },
+      false);
   read_list(r, "snapshots", "windows in which all positions are kept", 0, kMaxPlans, c.snapshots,
             [&c](ObjectReader& item, SnapshotPlan& plan) { read_snapshots(item, c, plan); });
-  r.object("vtk", "ParaView files", [&c](ObjectReader& o) {
-    o.number("every_s", c.vtk_every_s, {0, 1000, "s"}, {.help = "interval of the files; 0 = none", .fallback = 0.0});
-  }, false);
+  r.object(
+      "vtk", "ParaView files",
+      [&c](ObjectReader& o) {
+        o.number("every_s", c.vtk_every_s, {0, 1000, "s"}, {.help = "interval of the files; 0 = none", .fallback = 0.0});
+      },
+      false);
 }
 
 Case load_case(const std::filesystem::path& file, const std::vector<Override>& overrides, ReadOutcome* outcome) {

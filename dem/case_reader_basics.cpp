@@ -31,26 +31,30 @@ void read_intervals(ObjectReader& r, std::string_view key, std::vector<Interval>
   out.clear();
   for (std::size_t k = 0; k + 1 < flat.size(); k += 2) {
     if (!(flat[k + 1] > flat[k])) r.issue(key, "interval " + std::to_string(k / 2) + " ends before it starts", "write [on, off] with off > on");
-    if (!out.empty() && flat[k] < out.back().off_s) r.issue(key, "interval " + std::to_string(k / 2) + " starts before the one before it ends", "sort them and keep them apart");
+    if (!out.empty() && flat[k] < out.back().off_s)
+      r.issue(key, "interval " + std::to_string(k / 2) + " starts before the one before it ends", "sort them and keep them apart");
     out.push_back({flat[k], flat[k + 1]});
   }
 }
 
 void check_unique(ObjectReader& r, std::string_view key, const std::vector<std::string>& names) {
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (!names[k].empty() && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k), names[k]) != names.begin() + static_cast<std::ptrdiff_t>(k))
+    if (!names[k].empty() &&
+        std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k), names[k]) != names.begin() + static_cast<std::ptrdiff_t>(k))
       r.issue(key, "the name '" + names[k] + "' is used twice", "names must differ: files are named after them");
 }
 
 void read_box(ObjectReader& r, Case& c) {
-  r.object("box", "the simulated region; a grain that leaves it in a direction that is not periodic is taken out and counted as lost", [&c](ObjectReader& o) {
-    read_vec3(o, "low_mm", c.box.low, {-1e5, 1e5, "mm"}, {.help = "lower corner (x across, y along the belt, z up)"});
-    read_vec3(o, "high_mm", c.box.high, {-1e5, 1e5, "mm"}, {.help = "upper corner"});
-    o.boolean("periodic_x", c.box.periodic[0], {.help = "periodic across the belt", .fallback = false});
-    o.boolean("periodic_y", c.box.periodic[1], {.help = "periodic along the belt", .fallback = false});
-    o.boolean("periodic_z", c.box.periodic[2], {.help = "periodic upwards", .fallback = false});
-    if (!((c.box.high - c.box.low).minCoeff() > 0)) o.issue("high_mm", "the upper corner is not above the lower one in all three directions", "low < high");
-  });
+  r.object("box", "the simulated region; a grain that leaves it in a direction that is not periodic is taken out and counted as lost",
+           [&c](ObjectReader& o) {
+             read_vec3(o, "low_mm", c.box.low, {-1e5, 1e5, "mm"}, {.help = "lower corner (x across, y along the belt, z up)"});
+             read_vec3(o, "high_mm", c.box.high, {-1e5, 1e5, "mm"}, {.help = "upper corner"});
+             o.boolean("periodic_x", c.box.periodic[0], {.help = "periodic across the belt", .fallback = false});
+             o.boolean("periodic_y", c.box.periodic[1], {.help = "periodic along the belt", .fallback = false});
+             o.boolean("periodic_z", c.box.periodic[2], {.help = "periodic upwards", .fallback = false});
+             if (!((c.box.high - c.box.low).minCoeff() > 0))
+               o.issue("high_mm", "the upper corner is not above the lower one in all three directions", "low < high");
+           });
 }
 
 void read_region(ObjectReader& r, const Case& c, Vec3& low, Vec3& high, std::string_view what) {
@@ -60,8 +64,10 @@ void read_region(ObjectReader& r, const Case& c, Vec3& low, Vec3& high, std::str
   for (int k = 0; k < 3; ++k) {
     if (!(high[k] > low[k])) r.issue("high_mm", std::string(what) + ": the upper corner is not above the lower one along " + kAxis[k], "low < high");
     if (low[k] < c.box.low[k] - kSameCorner_m || high[k] > c.box.high[k] + kSameCorner_m)
-      r.issue("low_mm", std::string(what) + " reaches from " + mm_text(low[k]) + " to " + mm_text(high[k]) + " along " + kAxis[k] + ", the box from " +
-                            mm_text(c.box.low[k]) + " to " + mm_text(c.box.high[k]), "keep it inside the box");
+      r.issue("low_mm",
+              std::string(what) + " reaches from " + mm_text(low[k]) + " to " + mm_text(high[k]) + " along " + kAxis[k] + ", the box from " +
+                  mm_text(c.box.low[k]) + " to " + mm_text(c.box.high[k]),
+              "keep it inside the box");
   }
 }
 

@@ -39,13 +39,15 @@ void read_counter(ObjectReader& r, const Case& c, Counter& counter) {
     counter.window_low[counter.axis] = -inf;
     counter.window_high[counter.axis] = inf;
     for (int k = 0; k < 3; ++k)
-      if (k != counter.axis && !(counter.window_high[k] > counter.window_low[k])) o.issue("high_mm", "the window is empty", "low < high across the plane");
+      if (k != counter.axis && !(counter.window_high[k] > counter.window_low[k]))
+        o.issue("high_mm", "the window is empty", "low < high across the plane");
   });
   r.boolean("remove", counter.remove, {.help = "grains that cross leave the run", .fallback = false});
   r.boolean("first_only", counter.first_only, {.help = "count a grain once", .fallback = true});
   const double low = c.box.low[counter.axis], high = c.box.high[counter.axis];
   if (high > low && (counter.position_m < low || counter.position_m > high))
-    r.issue("position_mm", "the plane at " + mm_text(counter.position_m) + " is outside the box, " + mm_text(low) + " to " + mm_text(high), "no grain would cross it");
+    r.issue("position_mm", "the plane at " + mm_text(counter.position_m) + " is outside the box, " + mm_text(low) + " to " + mm_text(high),
+            "no grain would cross it");
 }
 
 void read_snapshots(ObjectReader& r, const Case& c, SnapshotPlan& plan) {
@@ -53,6 +55,7 @@ void read_snapshots(ObjectReader& r, const Case& c, SnapshotPlan& plan) {
   r.number("to_s", plan.to_s, {0, 1e4, "s"}, {.help = "end of the window"});
   r.number("every_s", plan.every_s, {1e-6, 1000, "s"}, {.help = "interval of the frames"});
   if (!(plan.to_s > plan.from_s)) r.issue("to_s", "the window ends before it starts", "from_s < to_s");
-  if (c.duration_s > 0 && plan.from_s >= c.duration_s) r.issue("from_s", "the window starts after the end of the run", "duration_s is the simulated time");
+  if (c.duration_s > 0 && plan.from_s >= c.duration_s)
+    r.issue("from_s", "the window starts after the end of the run", "duration_s is the simulated time");
 }
 }  // namespace venato::dem

@@ -77,7 +77,8 @@ void read_track(ObjectReader& r, WallMotion& m) {
     WallMotion::PositionKnot knot{0, Vec3::Zero()};
     o.number("time_s", knot.time_s, {0, kForever_s, "s"}, {.help = "time of the knot"});
     read_vec3(o, "offset_mm", knot.offset_m, kPlace, {.help = "offset from the drawn place"});
-    if (k > 0 && !m.track.empty() && !(knot.time_s > m.track.back().time_s)) o.issue("time_s", "the knots are not in rising order of time", "sort them");
+    if (k > 0 && !m.track.empty() && !(knot.time_s > m.track.back().time_s))
+      o.issue("time_s", "the knots are not in rising order of time", "sort them");
     m.track.push_back(knot);
   });
 }
@@ -92,7 +93,8 @@ void read_motion(ObjectReader& r, WallMotion& m) {
     read_vec3(o, "speed_deg_s", m.rotation_rad_s, {-1e5, 1e5, "deg/s"}, {.help = "rotation vector (right-hand rule)"});
   });
   r.optional_object("vibration", "sinusoidal vibration", [&m](ObjectReader& o) { read_vibration(o, m); });
-  read_vec3(r, "surface_velocity_m_s", m.surface_velocity_m_s, {-100, 100, "m/s"}, {.help = "belt: the wall stays, its surface moves", .fallback = kZero});
+  read_vec3(r, "surface_velocity_m_s", m.surface_velocity_m_s, {-100, 100, "m/s"},
+            {.help = "belt: the wall stays, its surface moves", .fallback = kZero});
 }
 
 void read_wall(ObjectReader& r, const Case& c, Wall& wall) {

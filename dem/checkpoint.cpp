@@ -1,5 +1,5 @@
-/// Checkpoint of a running case: engine state, measurement state, fingerprint of the case. Binary, for the same build on the same kind of machine; a file
-/// appears only when complete.
+/// Checkpoint of a running case: engine state, measurement state, fingerprint of the case. Binary, for the same build on the same kind of machine; a
+/// file appears only when complete.
 #include <fstream>
 #include <span>
 
@@ -10,7 +10,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::uint64_t kMagic = 0x3144504b43454456ull;   // "VDECKPD1"
+constexpr std::uint64_t kMagic = 0x3144504b43454456ull;  // "VDECKPD1"
 
 void exchange_text(ByteWriter& a, const std::string& s) {
   a.value(static_cast<std::uint64_t>(s.size()));
@@ -27,7 +27,8 @@ void exchange(Archive& a, Run& r) {
   auto& o = r.result;
   for (auto& list : o.records) a.list(list);
   auto& s = o.series;
-  a.list(s.time_s), a.list(s.grain_count), a.list(s.mass_kg), a.list(s.kinetic_energy_j), a.list(s.mean_contacts), a.list(s.max_speed_m_s), a.list(s.top_z_m);
+  a.list(s.time_s), a.list(s.grain_count), a.list(s.mass_kg), a.list(s.kinetic_energy_j), a.list(s.mean_contacts), a.list(s.max_speed_m_s),
+      a.list(s.top_z_m);
   for (auto& list : s.counter_mass_kg) a.list(list);
   for (auto& list : s.wall_force_n) a.list(list);
   a.value(o.mass_put_in_kg), a.value(o.mass_removed_kg), a.value(o.mass_lost_box_kg), a.value(o.particle_steps);
@@ -40,11 +41,13 @@ void exchange_snapshot(Archive& a, S& s) {
 void add_shape(ByteWriter& w, const WallShape& shape) {
   w.value(static_cast<std::uint64_t>(shape.index()));
   if (const auto* p = std::get_if<PlaneShape>(&shape)) w.value(p->point), w.value(p->normal);
-  if (const auto* c = std::get_if<CylinderShape>(&shape)) w.value(c->base), w.value(c->axis), w.value(c->length_m), w.value(c->radius_m), w.value(c->inside);
+  if (const auto* c = std::get_if<CylinderShape>(&shape))
+    w.value(c->base), w.value(c->axis), w.value(c->length_m), w.value(c->radius_m), w.value(c->inside);
   if (const auto* m = std::get_if<MeshShape>(&shape)) w.list(m->triangles);
 }
 void add_motion(ByteWriter& w, const WallMotion& m) {
-  w.value(m.velocity_m_s), w.list(m.translate_when), w.list(m.track), w.value(m.rotation_centre), w.value(m.rotation_rad_s), w.value(m.vibration_amplitude_m);
+  w.value(m.velocity_m_s), w.list(m.translate_when), w.list(m.track), w.value(m.rotation_centre), w.value(m.rotation_rad_s),
+      w.value(m.vibration_amplitude_m);
   w.value(m.vibration_hz), w.value(m.vibration_phase_rad), w.list(m.vibrate_when), w.value(m.surface_velocity_m_s);
 }
 }  // namespace

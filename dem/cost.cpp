@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "dem/psd/check_sizes.h"
@@ -14,8 +15,7 @@ constexpr double kParticleStepsPerCoreSecond = 5e6;
 constexpr double kBytesPerGrain = 1300;
 constexpr double kBytesPerSnapshotGrain = 8 + 24 + 24 + 4 + 4;
 constexpr double kBytesPerCounterRecord = 160;
-// Hexagonal-ish loose lattices hold one grain per cube of ~ 1.05 largest diameters; only an estimate.
-constexpr double kLatticePitch = 1.05;
+constexpr double kLatticePitch = 1.02;  // diameters per place of a loose row
 
 /// Grains per kg of a powder mixture.
 double grains_per_kg(const Case& c, const std::vector<double>& fractions) {
@@ -29,15 +29,23 @@ double grains_per_kg(const Case& c, const std::vector<double>& fractions) {
   return n;
 }
 
+/// Fills are packed in rows along x (each as wide as its largest grain) and layers (as high as theirs).
 double lattice_grains(const Case& c, const Fill& fill) {
-  double largest = 0;
-  for (std::size_t k = 0; k < c.powders.size() && k < fill.powder_mass_fractions.size(); ++k)
-    if (fill.powder_mass_fractions[k] > 0) largest = std::max(largest, c.powders[k].psd.upper_cut_m * c.coarse_graining);
-  if (!(largest > 0)) return 0;
+  double largest = 0, volume_per_kg = 0;  // of the powders in the mixture
+  for (std::size_t k = 0; k < c.powders.size() && k < fill.powder_mass_fractions.size(); ++k) {
+    if (!(fill.powder_mass_fractions[k] > 0)) continue;
+    const Powder& p = c.powders[k];
+    largest = std::max(largest, p.psd.upper_cut_m * c.coarse_graining);
+    volume_per_kg += fill.powder_mass_fractions[k] / c.materials.materials.at(static_cast<std::size_t>(p.material)).density_kg_m3;
+  }
+  const double grains = grains_per_kg(c, fill.powder_mass_fractions);
+  if (!(largest > 0) || !(grains > 0)) return 0;
+  const double mean = std::cbrt(6 / std::numbers::pi * volume_per_kg / grains);  // diameter of the mean grain volume
   const Vec3 size = fill.high - fill.low;
-  double n = 1;
-  for (int k = 0; k < 3; ++k) n *= std::max(1.0, std::floor(size[k] / (kLatticePitch * largest)));
-  return n;
+  // The widest of a row of ten or twenty grains lies about half-way (in ln d) between the mean and the largest of all; a layer holds one of the
+  // largest.
+  const Vec3 place = kLatticePitch * Vec3(mean, std::sqrt(mean * largest), largest);
+  return std::max(1.0, size.x() / place.x()) * std::max(1.0, size.y() / place.y()) * std::max(1.0, size.z() / place.z());
 }
 
 struct GrainCount {
@@ -63,6 +71,7 @@ void add_rain(GrainCount& count, const Case& c, const Rain& rain) {
 
 CaseCost estimate_cost(const Case& c, int threads) {
   if (!(c.duration_s > 0)) throw UsageError("case '" + c.name + "': duration_s must be > 0");
+  const double step = choose_time_step(c);  // also checks materials and sizes
   GrainCount count;
   for (const Fill& fill : c.fills) {
     const double holds = lattice_grains(c, fill);
@@ -73,14 +82,14 @@ CaseCost estimate_cost(const Case& c, int threads) {
   for (const GrainRecord& grain : c.handed_over) add_from(count, 1, grain.time_s, c.duration_s);
 
   CaseCost cost{};
-  const double step = choose_time_step(c);
   cost.particles = count.last;
   cost.steps = std::ceil(c.duration_s / step);
   cost.particle_steps = count.integral / step;
   double frames = 0;
   for (const SnapshotPlan& plan : c.snapshots)
     if (plan.every_s > 0) frames += std::max(0.0, std::floor((std::min(plan.to_s, c.duration_s) - plan.from_s) / plan.every_s) + 1);
-  cost.memory_bytes = cost.particles * (kBytesPerGrain + frames * kBytesPerSnapshotGrain + static_cast<double>(c.counters.size()) * kBytesPerCounterRecord);
+  cost.memory_bytes =
+      cost.particles * (kBytesPerGrain + frames * kBytesPerSnapshotGrain + static_cast<double>(c.counters.size()) * kBytesPerCounterRecord);
   cost.seconds = cost.particle_steps / (kParticleStepsPerCoreSecond * std::max(1, threads));
   return cost;
 }

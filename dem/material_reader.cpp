@@ -28,7 +28,9 @@ void read_material(ObjectReader& r, Material& m) {
           {"wall", "only walls are made of it", elastic}});
 }
 
-std::string pair_name(const MaterialTable& t, std::size_t a, std::size_t b) { return "'" + t.materials[a].name + "' - '" + t.materials[b].name + "'"; }
+std::string pair_name(const MaterialTable& t, std::size_t a, std::size_t b) {
+  return "'" + t.materials[a].name + "' - '" + t.materials[b].name + "'";
+}
 
 void read_pair(ObjectReader& r, MaterialTable& table, std::vector<bool>& given) {
   const int a = read_material_name(r, "a", table, "one material of the pair");
@@ -59,7 +61,8 @@ void check_complete(ObjectReader& r, const MaterialTable& table, const std::vect
     for (std::size_t b = a; b < n; ++b) {
       const bool grain = table.materials[a].density_kg_m3 > 0 || table.materials[b].density_kg_m3 > 0;
       if (grain && !given[a * n + b])
-        r.issue("pairs", "the pair " + pair_name(table, a, b) + " is missing", "every pair with a grain material in it needs restitution and frictions");
+        r.issue("pairs", "the pair " + pair_name(table, a, b) + " is missing",
+                "every pair with a grain material in it needs restitution and frictions");
     }
 }
 }  // namespace
@@ -107,7 +110,8 @@ void read_powder(ObjectReader& r, const MaterialTable& table, Powder& powder) {
   if (material >= 0) {
     powder.material = material;
     if (!(table.materials[static_cast<std::size_t>(material)].density_kg_m3 > 0))
-      r.issue("material", "'" + table.materials[static_cast<std::size_t>(material)].name + "' is a wall material", "powders need a material of kind grain");
+      r.issue("material", "'" + table.materials[static_cast<std::size_t>(material)].name + "' is a wall material",
+              "powders need a material of kind grain");
   }
   SizeDistribution& psd = powder.psd;
   psd = {};
@@ -116,7 +120,8 @@ void read_powder(ObjectReader& r, const MaterialTable& table, Powder& powder) {
            [&psd](ObjectReader& b) {
              b.number("scale_um", psd.scale_m, {10, 20000, "um"}, {.help = "Weibull scale of the diameter by mass"});
              b.number("shape", psd.shape, {0.5, 30, ""}, {.help = "Weibull shape"});
-             b.number("lower_cut_um", psd.lower_cut_m, {5, 20000, "um", "the number of grains per mass diverges without it"}, {.help = "smallest grain"});
+             b.number("lower_cut_um", psd.lower_cut_m, {5, 20000, "um", "the number of grains per mass diverges without it"},
+                      {.help = "smallest grain"});
              b.number("upper_cut_um", psd.upper_cut_m, {5, 50000, "um"}, {.help = "largest grain"});
              if (psd.lower_cut_m > 0 && psd.upper_cut_m > 0 && psd.scale_m > 0 && psd.shape > 0) {
                const std::string problem = size_distribution_problem(psd);

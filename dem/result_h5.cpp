@@ -112,11 +112,15 @@ void write_final(H5Writer& file, const std::vector<GrainRecord>& grains) {
   file.dataset("/final/id", integers<G, std::int64_t>(grains, [](const G& g) { return g.id; }), n, {"1", "grain", "none", "id of the grain"});
   file.dataset("/final/species", integers<G, std::int32_t>(grains, [](const G& g) { return static_cast<std::int32_t>(g.species); }), n,
                {"1", "grain", "none", "index of its powder in /names/powders"});
-  file.dataset("/final/diameter_m", column<G>(grains, [](const G& g) { return g.diameter_m; }), n, {"m", "grain", "none", "diameter (coarse-grained)"});
+  file.dataset("/final/diameter_m", column<G>(grains, [](const G& g) { return g.diameter_m; }), n,
+               {"m", "grain", "none", "diameter (coarse-grained)"});
   file.dataset("/final/time_s", column<G>(grains, [](const G& g) { return g.time_s; }), n, {"s", "grain", "none", "time of this state"});
-  file.dataset("/final/position_m", vectors<G>(grains, [](const G& g) -> const Vec3& { return g.position_m; }), n3, {"m", "grain,xyz", kFrame, "centre"});
-  file.dataset("/final/velocity_m_s", vectors<G>(grains, [](const G& g) -> const Vec3& { return g.velocity_m_s; }), n3, {"m/s", "grain,xyz", kFrame, "velocity"});
-  file.dataset("/final/spin_rad_s", vectors<G>(grains, [](const G& g) -> const Vec3& { return g.spin_rad_s; }), n3, {"rad/s", "grain,xyz", kFrame, "spin"});
+  file.dataset("/final/position_m", vectors<G>(grains, [](const G& g) -> const Vec3& { return g.position_m; }), n3,
+               {"m", "grain,xyz", kFrame, "centre"});
+  file.dataset("/final/velocity_m_s", vectors<G>(grains, [](const G& g) -> const Vec3& { return g.velocity_m_s; }), n3,
+               {"m/s", "grain,xyz", kFrame, "velocity"});
+  file.dataset("/final/spin_rad_s", vectors<G>(grains, [](const G& g) -> const Vec3& { return g.spin_rad_s; }), n3,
+               {"rad/s", "grain,xyz", kFrame, "spin"});
 }
 
 void write_balance(H5Writer& file, const CaseResult& r) {
@@ -132,7 +136,8 @@ void write_balance(H5Writer& file, const CaseResult& r) {
   scalar("particle_steps", r.particle_steps, "1", "sum over the steps of the grains present");
   scalar("max_speed_seen_m_s", r.max_speed_seen_m_s, "m/s", "largest speed of any grain at any step");
   scalar("max_overlap_seen", r.max_overlap_seen, "1", "largest overlap over the radius of the smaller grain");
-  file.dataset("/balance/rain_starved_kg", r.rain_starved_kg, {r.rain_starved_kg.size()}, {"kg", "rain", "none", "mass that did not fit into each rain's region"});
+  file.dataset("/balance/rain_starved_kg", r.rain_starved_kg, {r.rain_starved_kg.size()},
+               {"kg", "rain", "none", "mass that did not fit into each rain's region"});
 }
 
 template <class T>

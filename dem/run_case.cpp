@@ -16,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr std::int64_t kOutflowEvery = 16, kClockEvery = 16;   // steps
+constexpr std::int64_t kOutflowEvery = 16, kClockEvery = 16;  // steps
 
 SimulationSetup setup_of(const Case& c, const Context& context, double dt) {
   SimulationSetup s;
@@ -38,24 +38,27 @@ void check_case(const Case& c) {
   for (int a = 0; a < 3; ++a)
     if (!(c.box.high[a] > c.box.low[a])) fail(std::string("the box has no extent along ") + "xyz"[a]);
   for (const Powder& p : c.powders)
-    if (p.material < 0 || static_cast<std::size_t>(p.material) >= c.materials.materials.size()) fail("powder '" + p.name + "' names a material that is not in the table");
+    if (p.material < 0 || static_cast<std::size_t>(p.material) >= c.materials.materials.size())
+      fail("powder '" + p.name + "' names a material that is not in the table");
   auto fractions = [&](const std::vector<double>& f, const std::string& who) {
-    if (f.size() != c.powders.size()) fail(who + " has " + std::to_string(f.size()) + " powder fractions for " + std::to_string(c.powders.size()) + " powders");
+    if (f.size() != c.powders.size())
+      fail(who + " has " + std::to_string(f.size()) + " powder fractions for " + std::to_string(c.powders.size()) + " powders");
     if (!(std::abs(std::accumulate(f.begin(), f.end(), 0.0) - 1) < 1e-6)) fail(who + ": its powder mass fractions do not add up to 1");
     if (std::any_of(f.begin(), f.end(), [](double v) { return !(v >= 0); })) fail(who + " has a negative powder fraction");
   };
   auto inside = [&](const Vec3& low, const Vec3& high, const std::string& who) {
     for (int a = 0; a < 3; ++a)
       if (!(low[a] <= high[a]) || low[a] < c.box.low[a] - 1e-12 || high[a] > c.box.high[a] + 1e-12)
-        fail(who + " spans " + std::to_string(low[a] * 1e3) + " … " + std::to_string(high[a] * 1e3) + " mm along " + "xyz"[a] + ", outside the box (" +
-             std::to_string(c.box.low[a] * 1e3) + " … " + std::to_string(c.box.high[a] * 1e3) + " mm)");
+        fail(who + " spans " + std::to_string(low[a] * 1e3) + " … " + std::to_string(high[a] * 1e3) + " mm along " + "xyz"[a] +
+             ", outside the box (" + std::to_string(c.box.low[a] * 1e3) + " … " + std::to_string(c.box.high[a] * 1e3) + " mm)");
   };
   for (std::size_t k = 0; k < c.fills.size(); ++k) inside(c.fills[k].low, c.fills[k].high, "fill " + std::to_string(k));
   for (const Rain& r : c.rains) inside(r.low, r.high, "rain '" + r.name + "'");
   for (std::size_t k = 0; k < c.fills.size(); ++k) fractions(c.fills[k].powder_mass_fractions, "fill " + std::to_string(k));
   for (const Rain& r : c.rains) fractions(r.powder_mass_fractions, "rain '" + r.name + "'");
   for (const GrainRecord& g : c.handed_over)
-    if (g.species < 0 || static_cast<std::size_t>(g.species) >= c.powders.size()) fail("a handed-over grain has species " + std::to_string(g.species) + ", which is no powder");
+    if (g.species < 0 || static_cast<std::size_t>(g.species) >= c.powders.size())
+      fail("a handed-over grain has species " + std::to_string(g.species) + ", which is no powder");
   for (const SnapshotPlan& p : c.snapshots)
     if (!(p.every_s > 0) || !(p.to_s >= p.from_s)) fail("a snapshot plan needs every_s > 0 and to_s >= from_s");
   if (!(c.series.every_s > 0)) fail("series.every_s is not > 0");
@@ -65,9 +68,12 @@ void log_profile(const CaseRun& run) {
   const StepStatistics& s = run.sim.statistics();
   const double all = s.seconds_list + s.seconds_contact + s.seconds_sum + s.seconds_integrate + s.seconds_walls;
   char line[256];
-  std::snprintf(line, sizeof line, "dem %s  profile: list %.1f %%  contact %.1f %%  sum and walls %.1f %%  integrate %.1f %%  wall motion %.1f %%  of %.2f s; %lld list builds in %lld steps",
-                run.c.name.c_str(), 100 * s.seconds_list / all, 100 * s.seconds_contact / all, 100 * s.seconds_sum / all, 100 * s.seconds_integrate / all,
-                100 * s.seconds_walls / all, all, static_cast<long long>(s.list_builds), static_cast<long long>(s.steps));
+  std::snprintf(line, sizeof line,
+                "dem %s  profile: list %.1f %%  contact %.1f %%  sum and walls %.1f %%  integrate %.1f %%  wall motion %.1f %%  of %.2f s; %lld list "
+                "builds in %lld steps",
+                run.c.name.c_str(), 100 * s.seconds_list / all, 100 * s.seconds_contact / all, 100 * s.seconds_sum / all,
+                100 * s.seconds_integrate / all, 100 * s.seconds_walls / all, all, static_cast<long long>(s.list_builds),
+                static_cast<long long>(s.steps));
   run.context.log.info(line);
 }
 
@@ -116,7 +122,8 @@ CaseRun::CaseRun(const Case& case_, const RunOptions& options_, Context& context
   frames.resize(c.snapshots.size());
   waiting.resize(c.handed_over.size());
   std::iota(waiting.begin(), waiting.end(), 0u);
-  std::stable_sort(waiting.begin(), waiting.end(), [&](std::uint32_t a, std::uint32_t b) { return c.handed_over[a].time_s < c.handed_over[b].time_s; });
+  std::stable_sort(waiting.begin(), waiting.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return c.handed_over[a].time_s < c.handed_over[b].time_s; });
   result.time_step_s = dt;
   result.records.resize(c.counters.size());
   result.series.counter_mass_kg.resize(c.counters.size());
@@ -129,8 +136,10 @@ CaseResult run_case(const Case& c, const RunOptions& options, Context& context) 
   const double dt = c.time_step_s > 0 ? c.time_step_s : choose_time_step(c);
   CaseRun run(c, options, context, dt);
   const std::int64_t steps = static_cast<std::int64_t>(std::ceil(c.duration_s / dt * (1 - 1e-12)));
-  if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint)) load_checkpoint(run, options.checkpoint);
-  else fill_regions(run);
+  if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint))
+    load_checkpoint(run, options.checkpoint);
+  else
+    fill_regions(run);
   Keeper keeper(run, steps);
   while (run.sim.step_number() < steps) {
     if (run.sim.step_number() % kClockEvery == 0) keeper.look();

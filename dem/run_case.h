@@ -53,6 +53,8 @@ struct RunOptions {
   bool profile = false;
 };
 /// Runs the case to its end. Same case and seed: same bytes for any thread count, interrupted and resumed or not.
+/// Sources are served and the level looked at every 10 steps; grains outside the box are removed every 16 steps. Speeds above expected_max_speed_m_s give
+/// a warning, above twice that the run ends. A finished run removes its checkpoint.
 /// \throws WorkError "grain 812 at (…) reached 14 m/s at t = … (limit …): likely cause …" instead of a blow-up; Interrupted after
 /// writing the checkpoint when context.stop is set.
 CaseResult run_case(const Case& c, const RunOptions& options, Context& context);

@@ -10,10 +10,11 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::int64_t kInsertEvery = 10;     // steps between insertions: each one costs a list build
-constexpr int kAttempts = 30;                 // random places tried for one grain before it waits for the next time
-constexpr double kGap = 0.02;                 // of a diameter, between neighbours of a fresh fill
-constexpr double kHandOverSqueeze = 0.05;     // overlap of radius that a handed-over grain may start with
+constexpr std::int64_t kInsertEvery = 64;   // steps between insertions: each one costs a list build
+constexpr double kRestingSpeed_m_s = 0.15;   // of grains that count for the level: faster ones are still bouncing or sliding down
+constexpr int kAttempts = 30;              // random places tried for one grain before it waits for the next time
+constexpr double kGap = 0.02;              // of a diameter, between neighbours of a fresh fill
+constexpr double kHandOverSqueeze = 0.05;  // overlap of radius that a handed-over grain may start with
 
 bool active(const std::vector<Interval>& when, double t) {
   return when.empty() || std::any_of(when.begin(), when.end(), [t](const Interval& i) { return t >= i.on_s && t < i.off_s; });
@@ -29,8 +30,8 @@ GrainInput grain_of(const GrainStream::Draw& d, const Vec3& position, const Vec3
   return g;
 }
 
-/// Loose block: shelves. Grains stand in rows along x, rows side by side along y, layers on top of each other; a row is as wide and a layer as high as
-/// its largest grain. The places are as random as the sizes; the spare height of a layer jitters the rest.
+/// Loose block: shelves. Grains stand in rows along x, rows side by side along y, layers on top of each other; a row is as wide and a layer as high
+/// as its largest grain. The places are as random as the sizes; the spare height of a layer jitters the rest.
 void fill_region(CaseRun& run, const Fill& fill, std::size_t index) {
   const Case& c = run.c;
   GrainStream stream(c, fill.powder_mass_fractions, stream_id("dem/fill") + index);
@@ -44,9 +45,13 @@ void fill_region(CaseRun& run, const Fill& fill, std::size_t index) {
   double placed_kg = 0;
   bool full = false;
   auto enough = [&] { return wanted_all && placed_kg + 0.5 * stream.at(entity).mass_kg >= fill.mass_kg; };
-  struct Site { GrainStream::Draw draw; std::uint64_t entity; double x, y; };
+  struct Site {
+    GrainStream::Draw draw;
+    std::uint64_t entity;
+    double x, y;
+  };
   for (double z = 0; !full && !enough();) {
-    std::vector<Site> layer;   // one layer, laid out in x and y before its height is known
+    std::vector<Site> layer;  // one layer, laid out in x and y before its height is known
     double layer_height = 0, layer_kg = 0;
     std::uint64_t next = entity;
     auto layer_enough = [&] { return wanted_all && placed_kg + layer_kg + 0.5 * stream.at(next).mass_kg >= fill.mass_kg; };
@@ -63,7 +68,7 @@ void fill_region(CaseRun& run, const Fill& fill, std::size_t index) {
         x += pitch, row_width = std::max(row_width, pitch), layer_height = std::max(layer_height, pitch), layer_kg += d.mass_kg;
         ++next;
       }
-      if (y + row_width > size.y() || layer.size() == row_start) {   // the row does not fit: undo it, the layer is complete
+      if (y + row_width > size.y() || layer.size() == row_start) {  // the row does not fit: undo it, the layer is complete
         layer.resize(row_start), layer_height = height_before, layer_kg = kg_before, next = next_before;
         break;
       }
@@ -79,7 +84,7 @@ void fill_region(CaseRun& run, const Fill& fill, std::size_t index) {
       const double spare = layer_height - (1 + kGap) * s.draw.diameter_m;
       const Vec3 at = fill.low + Vec3(s.x, s.y, z + 0.5 * layer_height + spare * (rng.uniform() - 0.5));
       const double radius = 0.5 * s.draw.diameter_m;
-      if (run.sim.wall_gap_m(at, radius) < 0 || (others && !run.sim.is_free(at, radius))) continue;   // a wall or an earlier grain stands there
+      if (run.sim.wall_gap_m(at, radius) < 0 || (others && !run.sim.is_free(at, radius))) continue;  // a wall or an earlier grain stands there
       run.put_in(grain_of(s.draw, at, fill.velocity_m_s), s.draw.mass_kg);
       placed_kg += s.draw.mass_kg;
     }
@@ -97,7 +102,7 @@ void rain(CaseRun& run, std::size_t index) {
   GrainStream& stream = run.rain_streams[index];
   const double t = run.sim.time_s();
   if (!active(r.when, t)) return;
-  if (!std::isnan(r.level_z_m) && run.sim.bed_top_m(r.low, r.high) >= r.level_z_m) return;
+  if (!std::isnan(r.level_z_m) && run.sim.bed_top_m(r.low, r.high, kRestingSpeed_m_s) >= r.level_z_m) return;
   state.due_kg += r.mass_rate_kg_s * static_cast<double>(kInsertEvery) * run.sim.time_step_s();
   while (true) {
     const GrainStream::Draw d = stream.at(state.entity);
@@ -108,7 +113,7 @@ void rain(CaseRun& run, std::size_t index) {
     for (int k = 0; k < kAttempts && !placed; ++k) {
       Vec3 at;
       for (int a = 0; a < 3; ++a) {
-        const bool room = !run.c.box.periodic[a] && r.high[a] - r.low[a] > 2 * radius;   // whole grains inside the region where it has room
+        const bool room = !run.c.box.periodic[a] && r.high[a] - r.low[a] > 2 * radius;  // whole grains inside the region where it has room
         const double low = r.low[a] + (room ? radius : 0), high = r.high[a] - (room ? radius : 0);
         at[a] = low + rng.uniform() * (high - low);
       }
@@ -116,7 +121,7 @@ void rain(CaseRun& run, std::size_t index) {
       run.put_in(grain_of(d, at, r.velocity_m_s), d.mass_kg);
       placed = true;
     }
-    if (!placed) return;   // stays due: retried next time, counted as starved at the end
+    if (!placed) return;  // stays due: retried next time, counted as starved at the end
     state.due_kg -= d.mass_kg;
     ++state.entity;
   }

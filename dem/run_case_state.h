@@ -9,13 +9,19 @@
 
 namespace venato::dem {
 
-struct GrainBirth { double time_s; Vec3 position_m; };
+struct GrainBirth {
+  double time_s;
+  Vec3 position_m;
+};
 
 /// Sizes and powders of the grains of one source, in order; entity k is always the same grain.
 class GrainStream {
  public:
   GrainStream(const Case& c, const std::vector<double>& powder_mass_fractions, std::uint64_t stream);
-  struct Draw { double diameter_m, mass_kg; int species, material; };
+  struct Draw {
+    double diameter_m, mass_kg;
+    int species, material;
+  };
   Draw at(std::uint64_t entity);
   double largest_diameter_m() const { return largest_m_; }
 
@@ -23,15 +29,15 @@ class GrainStream {
   static constexpr std::uint64_t kChunk = 1024;
   const Case* case_;
   std::uint64_t stream_;
-  std::vector<double> by_number_;                 ///< cumulative number fraction of each powder
+  std::vector<double> by_number_;  ///< cumulative number fraction of each powder
   double largest_m_ = 0;
   std::uint64_t chunk_ = ~std::uint64_t{0};
-  std::vector<std::vector<double>> diameter_m_;   ///< [powder][entity in chunk]
+  std::vector<std::vector<double>> diameter_m_;  ///< [powder][entity in chunk]
 };
 
 struct RainState {
-  double due_kg = 0;                              ///< fallen due and not yet placed
-  std::uint64_t entity = 0;                       ///< next grain of its stream
+  double due_kg = 0;         ///< fallen due and not yet placed
+  std::uint64_t entity = 0;  ///< next grain of its stream
 };
 
 struct CaseRun {
@@ -44,15 +50,15 @@ struct CaseRun {
   std::vector<GrainStream> rain_streams;
 
   // carried
-  std::vector<GrainBirth> births;                 ///< [id]
+  std::vector<GrainBirth> births;  ///< [id]
   std::vector<RainState> rains;
-  std::vector<std::uint32_t> waiting;             ///< handed-over records not yet put in, by time
-  std::vector<std::vector<std::uint8_t>> seen;    ///< [counter][id] crossed already
+  std::vector<std::uint32_t> waiting;           ///< handed-over records not yet put in, by time
+  std::vector<std::vector<std::uint8_t>> seen;  ///< [counter][id] crossed already
   std::vector<double> counter_mass_kg;
-  std::vector<Vec3> impulse_before;               ///< of the last series sample
+  std::vector<Vec3> impulse_before;  ///< of the last series sample
   double sampled_at_s = 0, fastest_since_sample_m_s = 0;
   std::int64_t samples = 0;
-  std::vector<std::int64_t> frames;               ///< [plan]
+  std::vector<std::int64_t> frames;  ///< [plan]
   std::vector<double> vtk_times_s;
   std::int64_t delayed_hand_overs = 0;
   std::uint8_t speed_warned = 0;

@@ -11,7 +11,7 @@ void write_vtk(CaseRun& run) {
   std::vector<std::int32_t> species;
   std::vector<std::int64_t> id;
   for (const GrainState& g : run.sim.grains()) {
-    Vec3 p = g.position_m;   // wrapped back into the box: what one wants to look at
+    Vec3 p = g.position_m;  // wrapped back into the box: what one wants to look at
     for (int a = 0; a < 3; ++a)
       if (run.c.box.periodic[a]) {
         const double length = run.c.box.high[a] - run.c.box.low[a];

@@ -12,7 +12,7 @@ namespace venato::dem {
 namespace {
 // The Hertz time falls with v^(1/5): at twice the expected speed the step is 15 % of it instead of 10 %, still stable; beyond, nothing is promised.
 constexpr double kSpeedLimitFactor = 2;
-constexpr double kDeepOverlap = 0.3;      // of the smaller radius: far outside Hertz theory
+constexpr double kDeepOverlap = 0.3;  // of the smaller radius: far outside Hertz theory
 
 std::string likely_cause(const CaseRun& run) {
   const StepStatistics& s = run.sim.statistics();
@@ -38,9 +38,12 @@ void watch_speed(CaseRun& run) {
   if (s.max_speed_m_s <= limit) return;
   const GrainState g = run.sim.grain(s.fastest);
   char line[512];
-  std::snprintf(line, sizeof line, "grain %lld (d = %.3g mm, powder '%s') at (%.4g, %.4g, %.4g) mm reached %.3g m/s at t = %.5g s, limit %.3g m/s (%.0f x expected_max_speed_m_s = %.3g): ",
-                static_cast<long long>(g.id), 2e3 * g.radius_m, run.c.powders[static_cast<std::size_t>(g.species)].name.c_str(), 1e3 * g.position_m.x(),
-                1e3 * g.position_m.y(), 1e3 * g.position_m.z(), s.max_speed_m_s, run.sim.time_s(), limit, kSpeedLimitFactor, run.c.expected_max_speed_m_s);
+  std::snprintf(line, sizeof line,
+                "grain %lld (d = %.3g mm, powder '%s') at (%.4g, %.4g, %.4g) mm reached %.3g m/s at t = %.5g s, limit %.3g m/s (%.0f x "
+                "expected_max_speed_m_s = %.3g): ",
+                static_cast<long long>(g.id), 2e3 * g.radius_m, run.c.powders[static_cast<std::size_t>(g.species)].name.c_str(),
+                1e3 * g.position_m.x(), 1e3 * g.position_m.y(), 1e3 * g.position_m.z(), s.max_speed_m_s, run.sim.time_s(), limit, kSpeedLimitFactor,
+                run.c.expected_max_speed_m_s);
   throw WorkError("DEM case '" + run.c.name + "': " + line + likely_cause(run));
 }
 
@@ -49,13 +52,14 @@ void count_crossings(CaseRun& run) {
   for (const Crossing& x : run.sim.take_crossings()) {
     const std::size_t k = static_cast<std::size_t>(x.counter);
     const Counter& counter = run.c.counters[k];
-    if (!run.sim.has_grain(x.id)) continue;   // removed by another counter earlier in this step
+    if (!run.sim.has_grain(x.id)) continue;  // removed by another counter earlier in this step
     std::uint8_t& seen = run.seen[k][static_cast<std::size_t>(x.id)];
     if (seen && counter.first_only) continue;
     seen = 1;
     const GrainState g = run.sim.grain(x.id);
     const GrainBirth& birth = run.births[static_cast<std::size_t>(x.id)];
-    run.result.records[k].push_back({x.time_s, x.position_m, x.velocity_m_s, x.spin_rad_s, birth.position_m, birth.time_s, g.mass_kg, 2 * g.radius_m, x.id, g.species});
+    run.result.records[k].push_back(
+        {x.time_s, x.position_m, x.velocity_m_s, x.spin_rad_s, birth.position_m, birth.time_s, g.mass_kg, 2 * g.radius_m, x.id, g.species});
     run.counter_mass_kg[k] += g.mass_kg;
     if (counter.remove) run.take_out(x.id, run.result.mass_removed_kg);
   }
@@ -143,15 +147,20 @@ void finish_result(CaseRun& run) {
   r.max_overlap_seen = s.max_overlap;
   char line[256];
   if (s.max_speed_m_s > run.c.expected_max_speed_m_s) {
-    std::snprintf(line, sizeof line, "grains reached %.3g m/s, above expected_max_speed_m_s = %.3g: the time step is %.0f %% longer against the Hertz time than asked for",
-                  s.max_speed_m_s, run.c.expected_max_speed_m_s, 100 * (std::pow(s.max_speed_m_s / run.c.expected_max_speed_m_s, 0.2) - 1));
+    std::snprintf(
+        line, sizeof line,
+        "grains reached %.3g m/s, above expected_max_speed_m_s = %.3g: the time step is %.0f %% longer against the Hertz time than asked for",
+        s.max_speed_m_s, run.c.expected_max_speed_m_s, 100 * (std::pow(s.max_speed_m_s / run.c.expected_max_speed_m_s, 0.2) - 1));
     r.warnings.emplace_back(line);
   }
   if (s.max_overlap > 0.1) {
-    std::snprintf(line, sizeof line, "grains overlapped by up to %.0f %% of their radius: outside Hertz theory (10 %%); a larger Young's modulus reduces it", 100 * s.max_overlap);
+    std::snprintf(line, sizeof line,
+                  "grains overlapped by up to %.0f %% of their radius: outside Hertz theory (10 %%); a larger Young's modulus reduces it",
+                  100 * s.max_overlap);
     r.warnings.emplace_back(line);
   }
-  if (!run.waiting.empty()) r.warnings.push_back(std::to_string(run.waiting.size()) + " handed-over grains never found room or were born after the end");
+  if (!run.waiting.empty())
+    r.warnings.push_back(std::to_string(run.waiting.size()) + " handed-over grains never found room or were born after the end");
   for (std::size_t k = 0; k < run.c.rains.size(); ++k)
     if (r.rain_starved_kg[k] > 1e-3 * run.c.rains[k].mass_rate_kg_s * run.c.duration_s) {
       std::snprintf(line, sizeof line, "rain '%s' could not place %.3g g for lack of room", run.c.rains[k].name.c_str(), 1e3 * r.rain_starved_kg[k]);

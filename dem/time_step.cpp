@@ -61,7 +61,8 @@ double farthest_from(const Vec3& centre, const WallShape& shape, const Box& box)
     reach(cylinder->base), reach(cylinder->base + cylinder->length_m * axis);
     distance += cylinder->radius_m;
   } else {
-    for (int k = 0; k < 8; ++k) reach(Vec3(k & 1 ? box.high.x() : box.low.x(), k & 2 ? box.high.y() : box.low.y(), k & 4 ? box.high.z() : box.low.z()));
+    for (int k = 0; k < 8; ++k)
+      reach(Vec3(k & 1 ? box.high.x() : box.low.x(), k & 2 ? box.high.y() : box.low.y(), k & 4 ? box.high.z() : box.low.z()));
   }
   return distance;
 }
@@ -113,8 +114,8 @@ TimeStepBounds time_step_bounds(const Case& c) {
         throw UsageError("wall '" + wall.name + "': its material index is outside the material table");
       const Material& b = table[static_cast<std::size_t>(wall.material)];
       require_material(b, false);
-      bounds.hertz_s = std::min(bounds.hertz_s,
-                                hertz_time(mass, g.radius_m, effective_modulus(a, b), c.expected_max_speed_m_s + wall_speed(wall, c.box)));
+      bounds.hertz_s =
+          std::min(bounds.hertz_s, hertz_time(mass, g.radius_m, effective_modulus(a, b), c.expected_max_speed_m_s + wall_speed(wall, c.box)));
     }
   }
   // EEPA unloads k2/k1 times stiffer than the Hertz branch the two times are made for; a contact's own period goes with 1/sqrt(stiffness).
@@ -127,7 +128,8 @@ double choose_time_step(const Case& c) {
   if (!(c.rayleigh_fraction > 0) || !(c.hertz_fraction > 0)) throw UsageError("case '" + c.name + "': time step fractions must be > 0");
   const TimeStepBounds bounds = time_step_bounds(c);
   const double step = std::min(c.rayleigh_fraction * bounds.rayleigh_s, c.hertz_fraction * bounds.hertz_s) / bounds.stiffening;
-  if (!std::isfinite(step) || !(step > 0)) throw UsageError("case '" + c.name + "': the time step bounds are not finite (check materials, sizes, wall motions)");
+  if (!std::isfinite(step) || !(step > 0))
+    throw UsageError("case '" + c.name + "': the time step bounds are not finite (check materials, sizes, wall motions)");
   return step;
 }
 }  // namespace venato::dem

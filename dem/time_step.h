@@ -21,9 +21,9 @@ double wall_speed(const Wall& wall, const Box& box);
 
 /// The bounds behind choose_time_step, for logs and reports.
 struct TimeStepBounds {
-  double rayleigh_s = 0;   ///< smallest Rayleigh time over the powders' smallest grains
-  double hertz_s = 0;      ///< smallest Hertz time over grain-grain pairs (at expected_max_speed) and grain-wall pairs (plus the wall's speed)
-  double stiffening = 1;   ///< both are divided by it: sqrt(k2/k1) for laws that unload stiffer than they load
+  double rayleigh_s = 0;  ///< smallest Rayleigh time over the powders' smallest grains
+  double hertz_s = 0;     ///< smallest Hertz time over grain-grain pairs (at expected_max_speed) and grain-wall pairs (plus the wall's speed)
+  double stiffening = 1;  ///< both are divided by it: sqrt(k2/k1) for laws that unload stiffer than they load
 };
 /// \throws UsageError for a case without grains, or with materials, sizes, speeds that give no time step.
 TimeStepBounds time_step_bounds(const Case& c);

@@ -12,7 +12,8 @@ void write_case_outputs(const std::filesystem::path& folder, const Case& c, cons
   write_case_result(folder / "result.h5", c, r);
   write_text_atomically(folder / "kpi.csv", kpi_csv(case_kpis(c, r)));
   write_text_atomically(folder / "series.csv", series_csv(c, r.series));
-  for (std::size_t k = 0; k < r.records.size(); ++k) write_text_atomically(folder / ("counter_" + counter_label(c, k) + ".csv"), counter_csv(c, r.records[k]));
+  for (std::size_t k = 0; k < r.records.size(); ++k)
+    write_text_atomically(folder / ("counter_" + counter_label(c, k) + ".csv"), counter_csv(c, r.records[k]));
   if (!r.records.empty()) {
     write_text_atomically(folder / "counter_mass.svg", counter_mass_svg(c, r));
     write_text_atomically(folder / "flow_rate.svg", flow_rate_svg(c, r));

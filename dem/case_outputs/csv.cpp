@@ -71,7 +71,8 @@ std::string counter_csv(const Case& c, const std::vector<CounterRecord>& records
     append(line, r.velocity_m_s, 1);
     append(line, r.diameter_m * kUm);
     append(line, r.mass_kg * kUg);
-    append(line, r.species >= 0 && static_cast<std::size_t>(r.species) < c.powders.size() ? powder_label(c, static_cast<std::size_t>(r.species)) : std::string());
+    append(line, r.species >= 0 && static_cast<std::size_t>(r.species) < c.powders.size() ? powder_label(c, static_cast<std::size_t>(r.species))
+                                                                                          : std::string());
     append(line, std::to_string(r.id));
     append(line, r.birth_time_s);
     append(line, r.birth_position_m, kMm);

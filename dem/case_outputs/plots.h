@@ -11,7 +11,7 @@ std::string kinetic_energy_svg(const Case& c, const CaseResult& r);
 
 /// Means over x and y of one snapshot window against height, from estimate_fields on a grid over the box with cells of one largest grain.
 struct HeightProfile {
-  std::vector<double> z_mm, velocity_y_mm_s, velocity_z_mm_s, solid_fraction;   ///< velocities NaN where nothing moved through
+  std::vector<double> z_mm, velocity_y_mm_s, velocity_z_mm_s, solid_fraction;  ///< velocities NaN where nothing moved through
 };
 /// None with fewer than 3 frames or no grains.
 std::optional<HeightProfile> height_profile(const Case& c, const std::vector<Snapshot>& frames);

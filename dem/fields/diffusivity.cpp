@@ -14,8 +14,9 @@ double DiffusivitySums::mean_trace() const {
   return w > 0 ? (sum(xx) + sum(yy) + sum(zz)) / w / 3 : std::nan("");
 }
 
-DiffusivitySums diffusivity_sums(const Tracks& tracks, const IntegratedFlow& flow, std::span<const double> times_s, std::span<const double> frame_weights,
-                                 const MeanFlow& mean, const FieldGrid& grid, bool periodic_y, std::size_t lag) {
+DiffusivitySums diffusivity_sums(const Tracks& tracks, const IntegratedFlow& flow, std::span<const double> times_s,
+                                 std::span<const double> frame_weights, const MeanFlow& mean, const FieldGrid& grid, bool periodic_y,
+                                 std::size_t lag) {
   const GridLookup lookup(grid, periodic_y);
   DiffusivitySums sums;
   for (auto* v : {&sums.weight, &sums.xx, &sums.yy, &sums.zz, &sums.yz}) v->assign(grid.size(), 0);

@@ -20,7 +20,8 @@ void check_input(std::span<const Snapshot> frames, const FieldGrid& grid, const 
 }
 
 /// Grain volume spread cloud-in-cell over the four cells around the centre, per cell volume and weighted frame.
-std::vector<double> solid_fraction(std::span<const Snapshot> frames, std::span<const double> weights, const FieldGrid& grid, const FieldOptions& options) {
+std::vector<double> solid_fraction(std::span<const Snapshot> frames, std::span<const double> weights, const FieldGrid& grid,
+                                   const FieldOptions& options) {
   const GridLookup lookup(grid, options.periodic_y);
   std::vector<double> volume(grid.size(), 0);
   double total_weight = 0;
@@ -46,8 +47,8 @@ std::size_t frames_of_lag(double lag_s, std::span<const double> times) {
 }
 
 /// Chosen lag and its sums.
-std::pair<std::size_t, DiffusivitySums> diffusivity(const Tracks& tracks, std::span<const double> times, std::span<const double> weights, const MeanFlow& mean,
-                                                    const FieldGrid& grid, const FieldOptions& options) {
+std::pair<std::size_t, DiffusivitySums> diffusivity(const Tracks& tracks, std::span<const double> times, std::span<const double> weights,
+                                                    const MeanFlow& mean, const FieldGrid& grid, const FieldOptions& options) {
   const IntegratedFlow flow = integrated_flow(tracks, times, mean, grid, options.periodic_y);
   const auto sums_of = [&](std::size_t lag) { return diffusivity_sums(tracks, flow, times, weights, mean, grid, options.periodic_y, lag); };
   // A stretch longer than half the window leaves fewer than two independent ones.

@@ -41,14 +41,16 @@ void add_gradients(MeanFlow& flow, const FieldGrid& grid, bool periodic) {
 }
 }  // namespace
 
-MeanFlow mean_flow(const Tracks& tracks, std::span<const double> times_s, std::span<const double> frame_weights, const FieldGrid& grid, bool periodic_y,
-                   double min_samples) {
+MeanFlow mean_flow(const Tracks& tracks, std::span<const double> times_s, std::span<const double> frame_weights, const FieldGrid& grid,
+                   bool periodic_y, double min_samples) {
   const GridLookup lookup(grid, periodic_y);
   const std::size_t n = grid.size();
   MeanFlow flow;
   for (auto* v : {&flow.u_y_m_s, &flow.u_z_m_s, &flow.y_m, &flow.z_m, &flow.samples, &flow.weight}) v->assign(n, 0);
   std::vector<double> mass(n, 0);
-  const auto cell_centre_y = [&](std::size_t c) { return grid.y0_m + (static_cast<double>(c % static_cast<std::size_t>(grid.ny)) + 0.5) * grid.cell_m; };
+  const auto cell_centre_y = [&](std::size_t c) {
+    return grid.y0_m + (static_cast<double>(c % static_cast<std::size_t>(grid.ny)) + 0.5) * grid.cell_m;
+  };
   for (std::size_t p = 0; p < tracks.count(); ++p)
     for (std::size_t e = tracks.start[p]; e + 1 < tracks.start[p + 1]; ++e) {
       const std::size_t f = static_cast<std::size_t>(tracks.first_frame[p]) + e - tracks.start[p];

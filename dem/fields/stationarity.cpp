@@ -9,8 +9,8 @@ namespace venato::dem {
 namespace {
 // Gates of multiscale.md 1.5.
 constexpr double kVelocityChange = 0.05, kVelocitySigmas = 3, kDrift = 0.02;
-constexpr std::size_t kBlocks = 8;      // time blocks for the standard error; half of them in each half of the window
-constexpr double kMinSamples = 50;      // per half window and cell
+constexpr std::size_t kBlocks = 8;  // time blocks for the standard error; half of them in each half of the window
+constexpr double kMinSamples = 50;  // per half window and cell
 // Mean of |N(0, 1)|: what the L1 change of a stationary window is expected to be, in standard errors.
 const double kMeanAbsNormal = std::sqrt(2 / std::numbers::pi);
 
@@ -55,9 +55,11 @@ MeanFlow flow_between(std::span<const Snapshot> frames, std::size_t from, std::s
 StationarityReport check_stationarity(std::span<const Snapshot> frames, const FieldGrid& grid, bool periodic_y) {
   if (frames.size() < kBlocks + 1) throw UsageError("the stationarity gate needs at least 9 frames, has " + std::to_string(frames.size()));
   const std::size_t steps = frames.size() - 1, middle = steps / 2;
-  const MeanFlow first = flow_between(frames, 0, middle, grid, periodic_y, kMinSamples), second = flow_between(frames, middle, steps, grid, periodic_y, kMinSamples);
+  const MeanFlow first = flow_between(frames, 0, middle, grid, periodic_y, kMinSamples),
+                 second = flow_between(frames, middle, steps, grid, periodic_y, kMinSamples);
   std::vector<MeanFlow> blocks;
-  for (std::size_t b = 0; b < kBlocks; ++b) blocks.push_back(flow_between(frames, b * steps / kBlocks, (b + 1) * steps / kBlocks, grid, periodic_y, 1));
+  for (std::size_t b = 0; b < kBlocks; ++b)
+    blocks.push_back(flow_between(frames, b * steps / kBlocks, (b + 1) * steps / kBlocks, grid, periodic_y, 1));
 
   double change = 0, speed = 0, noise = 0;
   for (std::size_t c = 0; c < grid.size(); ++c) {

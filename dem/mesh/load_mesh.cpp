@@ -2,8 +2,8 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <assimp/Importer.hpp>
 #include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
 #include <cmath>
 #include <string>
 
@@ -12,8 +12,8 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::size_t kMaxTriangles = 2'000'000;           // a drawn hopper has 1e2..1e5; more is a scan or a mistake
-constexpr std::uintmax_t kMaxFileBytes = 1'000'000'000;    // ASCII STL of kMaxTriangles is ~ 5e8 bytes
+constexpr std::size_t kMaxTriangles = 2'000'000;         // a drawn hopper has 1e2..1e5; more is a scan or a mistake
+constexpr std::uintmax_t kMaxFileBytes = 1'000'000'000;  // ASCII STL of kMaxTriangles is ~ 5e8 bytes
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) { throw UsageError("mesh " + file.string() + ": " + why); }
 

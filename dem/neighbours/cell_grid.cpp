@@ -5,7 +5,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr int kMostLevels = 6;                 // size ratios up to 64; smaller grains share the last level
+constexpr int kMostLevels = 6;  // size ratios up to 64; smaller grains share the last level
 constexpr std::int64_t kCellsPerGrain = 8, kFreeCells = 4096;
 }  // namespace
 
@@ -21,7 +21,7 @@ PeriodicBox PeriodicBox::from(const Box& box) {
 
 std::int64_t CellGrid::Axis::cell_of(double v) const {
   const std::int64_t k = raw(v);
-  if (periodic) return std::clamp<std::int64_t>(k, 0, count - 1);   // wrapped already; rounding may touch the upper face
+  if (periodic) return std::clamp<std::int64_t>(k, 0, count - 1);  // wrapped already; rounding may touch the upper face
   if (slabs.empty()) return std::clamp<std::int64_t>(k, 0, count - 1);
   return std::lower_bound(slabs.begin(), slabs.end(), k) - slabs.begin();
 }
@@ -31,9 +31,10 @@ void CellGrid::Axis::range(double low, double high, std::int64_t& first, std::in
   if (periodic) {
     if (last - first + 1 >= count) {
       first = 0, last = count - 1;
-    } else if (first >= count || last < 0) {   // asked from just outside the box
+    } else if (first >= count || last < 0) {  // asked from just outside the box
       const std::int64_t move = first >= count ? -count : count;
       first += move, last += move;
+      if (first >= count || last < 0) first = 0, last = count - 1;  // only a grain that blew up is that far out
     }
   } else if (slabs.empty()) {
     first = std::max<std::int64_t>(first, 0), last = std::min(last, count - 1);
@@ -43,7 +44,8 @@ void CellGrid::Axis::range(double low, double high, std::int64_t& first, std::in
   }
 }
 
-void CellGrid::shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell) {
+void CellGrid::shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box,
+                           double cell) {
   double low[3], high[3];
   for (int a = 0; a < 3; ++a) low[a] = std::numeric_limits<double>::infinity(), high[a] = -low[a];
   for (const std::int32_t k : members) {
@@ -86,7 +88,7 @@ void CellGrid::shape_level(Level& level, std::span<const Sphere> spheres, std::s
       x.count = static_cast<std::int64_t>(x.slabs.size());
     }
     if (cells() <= static_cast<double>(most)) return;
-    compressed = true;   // still too many (a diagonal line of grains): coarser cells
+    compressed = true;  // still too many (a diagonal line of grains): coarser cells
   }
 }
 

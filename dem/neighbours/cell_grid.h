@@ -13,7 +13,9 @@
 namespace venato::dem {
 
 /// Position and radius of a grain: what the search and the first test of every pair read.
-struct alignas(32) Sphere { double x, y, z, r; };
+struct alignas(32) Sphere {
+  double x, y, z, r;
+};
 
 /// Box as the search needs it. Non-periodic directions have length 0.
 struct PeriodicBox {
@@ -41,8 +43,12 @@ class CellGrid {
     double origin = 0, cell = 1;
     std::int64_t count = 0;
     bool periodic = false;
-    std::vector<std::int64_t> slabs;   ///< occupied slabs, ascending, when compressed
-    std::int64_t raw(double v) const { return static_cast<std::int64_t>(std::floor((v - origin) / cell)); }
+    std::vector<std::int64_t> slabs;  ///< occupied slabs, ascending, when compressed
+    /// A grain that blew up (not a number, or far out of any box) counts as being in slab 0 until run_case() reports it.
+    std::int64_t raw(double v) const {
+      const double slab = std::floor((v - origin) / cell);
+      return slab > -1e15 && slab < 1e15 ? static_cast<std::int64_t>(slab) : 0;
+    }
     std::int64_t cell_of(double v) const;
     void range(double low, double high, std::int64_t& first, std::int64_t& last) const;
   };
@@ -50,7 +56,7 @@ class CellGrid {
     double r_max = 0;
     Axis axis[3];
     std::int32_t first_slot = 0;
-    std::vector<std::int32_t> start;   ///< [cell + 1], relative to first_slot
+    std::vector<std::int32_t> start;  ///< [cell + 1], relative to first_slot
   };
   void shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell);
   std::vector<Level> levels_;
@@ -77,9 +83,14 @@ void CellGrid::for_runs_near(double x, double y, double z, double reach_extra, c
           const std::int32_t first = level.start[static_cast<std::size_t>(row + from)], last = level.start[static_cast<std::size_t>(row + to + 1)];
           if (first < last) visit(level.first_slot + first, level.first_slot + last);
         };
-        if (lo[0] < 0) { run(lo[0] + nx, nx - 1); run(0, hi[0]); }
-        else if (hi[0] >= nx) { run(lo[0], nx - 1); run(0, hi[0] - nx); }
-        else run(lo[0], hi[0]);
+        if (lo[0] < 0) {
+          run(lo[0] + nx, nx - 1);
+          run(0, hi[0]);
+        } else if (hi[0] >= nx) {
+          run(lo[0], nx - 1);
+          run(0, hi[0] - nx);
+        } else
+          run(lo[0], hi[0]);
       }
     }
   }

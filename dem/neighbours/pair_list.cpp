@@ -5,7 +5,10 @@
 namespace venato::dem {
 namespace {
 constexpr std::int64_t kBlock = 256;
-struct Neighbour { std::int64_t id; std::int32_t slot, image; };
+struct Neighbour {
+  std::int64_t id;
+  std::int32_t slot, image;
+};
 
 /// Full rows (partners below and above) of a block of grains, one after the other.
 struct BlockRows {
@@ -19,8 +22,10 @@ inline std::int32_t nearest_image(double d[3], const PeriodicBox& box) {
   for (std::size_t a = 0; a < 3; ++a, weight *= 3) {
     std::int32_t step = 1;
     if (box.length[a] > 0) {
-      if (d[a] > 0.5 * box.length[a]) d[a] -= box.length[a], step = 0;
-      else if (d[a] < -0.5 * box.length[a]) d[a] += box.length[a], step = 2;
+      if (d[a] > 0.5 * box.length[a])
+        d[a] -= box.length[a], step = 0;
+      else if (d[a] < -0.5 * box.length[a])
+        d[a] += box.length[a], step = 2;
     }
     code += step * weight;
   }
@@ -40,8 +45,10 @@ void find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& o
     }
   };
   const std::size_t begin = out.size();
-  if (in.grid) in.grid->for_runs_near(s.x, s.y, s.z, s.r + in.skin, test);
-  else test(0, static_cast<std::int32_t>(in.spheres.size()));
+  if (in.grid)
+    in.grid->for_runs_near(s.x, s.y, s.z, s.r + in.skin, test);
+  else
+    test(0, static_cast<std::int32_t>(in.spheres.size()));
   // Insertion sort: a dozen entries, nearly in order.
   for (std::size_t k = begin + 1; k < out.size(); ++k) {
     const Neighbour n = out[k];
@@ -106,7 +113,9 @@ void rebuild_pairs(PairList& list, PairList& spare, const PairListInput& in) {
         const std::size_t s = static_cast<std::size_t>(i), end = static_cast<std::size_t>(in_rows.end[s - static_cast<std::size_t>(b * kBlock)]);
         const std::int32_t was = in.old_slot[s];
         std::size_t from = 0, from_end = 0;
-        if (was < old_count) from = static_cast<std::size_t>(old.first[static_cast<std::size_t>(was)]), from_end = static_cast<std::size_t>(old.first[static_cast<std::size_t>(was) + 1]);
+        if (was < old_count)
+          from = static_cast<std::size_t>(old.first[static_cast<std::size_t>(was)]),
+          from_end = static_cast<std::size_t>(old.first[static_cast<std::size_t>(was) + 1]);
         std::size_t p = static_cast<std::size_t>(list.first[s]);
         for (; k < end; ++k) {
           const Neighbour& q = in_rows.row[k];
@@ -134,7 +143,7 @@ void rebuild_pairs(PairList& list, PairList& spare, const PairListInput& in) {
           const Neighbour& q = in_rows.row[k];
           if (q.id > in.id[s]) {
             list.incident[at] = 2 * own++;
-          } else {   // the pair stands in the partner's row
+          } else {  // the pair stands in the partner's row
             const auto row = list.partner.begin() + list.first[static_cast<std::size_t>(q.slot)],
                        row_end = list.partner.begin() + list.first[static_cast<std::size_t>(q.slot) + 1];
             const auto found = std::lower_bound(row, row_end, in.id[s]);

@@ -34,29 +34,31 @@ struct Pair {
   std::int32_t image;  ///< periodic image, index into image_shifts()
 };
 /// Force and torques of one pair on its grains; phase 2 sums them.
-struct PairForce { Trio on_i, torque_i, torque_j; };
+struct PairForce {
+  Trio on_i, torque_i, torque_j;
+};
 
 inline constexpr std::int32_t kNoImage = 13;
 /// Shift added to x_j - x_i for each of the 27 images.
 std::vector<Trio> image_shifts(const PeriodicBox& box);
 
 struct PairList {
-  std::vector<std::int32_t> first;               ///< [slot + 1] own pairs of each grain
+  std::vector<std::int32_t> first;  ///< [slot + 1] own pairs of each grain
   std::vector<Pair> pair;
-  std::vector<std::int64_t> partner;             ///< [pair] id of the partner
-  std::vector<std::uint8_t> touching;            ///< [pair]
-  RawArray<ContactHistory> history;              ///< [pair] defined while touching
-  RawArray<PairForce> force;                     ///< [pair] defined while touching
-  std::vector<std::int32_t> incident_first;      ///< [slot + 1]
-  std::vector<std::uint32_t> incident;           ///< all pairs of a grain by ascending partner id: 2 * pair + (grain is the partner)
+  std::vector<std::int64_t> partner;         ///< [pair] id of the partner
+  std::vector<std::uint8_t> touching;        ///< [pair]
+  RawArray<ContactHistory> history;          ///< [pair] defined while touching
+  RawArray<PairForce> force;                 ///< [pair] defined while touching
+  std::vector<std::int32_t> incident_first;  ///< [slot + 1]
+  std::vector<std::uint32_t> incident;       ///< all pairs of a grain by ascending partner id: 2 * pair + (grain is the partner)
   std::size_t grain_count() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
 struct PairListInput {
-  std::span<const Sphere> spheres;               ///< new slot order
-  std::span<const std::int64_t> id;              ///< new slot order
-  std::span<const std::int32_t> old_slot;        ///< [new slot] slot in the old list; >= old.grain_count() = new grain
-  const CellGrid* grid;                          ///< null = brute force
+  std::span<const Sphere> spheres;         ///< new slot order
+  std::span<const std::int64_t> id;        ///< new slot order
+  std::span<const std::int32_t> old_slot;  ///< [new slot] slot in the old list; >= old.grain_count() = new grain
+  const CellGrid* grid;                    ///< null = brute force
   PeriodicBox box;
   double skin;
   int threads;

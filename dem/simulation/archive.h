@@ -15,12 +15,12 @@ class ByteWriter {
  public:
   template <class T>
   void value(const T& v) {
-    static_assert(std::is_trivially_destructible_v<T>);   // plain data; Eigen's fixed sizes are, though not formally trivially copyable
+    static_assert(std::is_trivially_destructible_v<T>);  // plain data; Eigen's fixed sizes are, though not formally trivially copyable
     append(&v, sizeof(T));
   }
   template <class T>
   void list(const std::vector<T>& v) {
-    static_assert(std::is_trivially_destructible_v<T>);   // plain data; Eigen's fixed sizes are, though not formally trivially copyable
+    static_assert(std::is_trivially_destructible_v<T>);  // plain data; Eigen's fixed sizes are, though not formally trivially copyable
     value(static_cast<std::uint64_t>(v.size()));
     append(v.data(), v.size() * sizeof(T));
   }

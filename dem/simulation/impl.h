@@ -1,5 +1,6 @@
 #pragma once
 /// Inside of Simulation. One function per phase of the step, each in its own file; see step.cpp for the order.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <variant>
@@ -17,14 +18,16 @@ namespace venato::dem {
 /// What a touching pair reads besides the spheres: one cache line.
 struct alignas(64) Motion {
   Trio velocity, spin;
-  double inverse_mass;   ///< 0 = frozen
+  double inverse_mass;  ///< 0 = frozen
   double mass;
 };
-struct Load { Trio force, torque; };
-struct GrainCard {       ///< cold data
+struct Load {
+  Trio force, torque;
+};
+struct GrainCard {  ///< cold data
   GrainId id;
   std::int32_t species, material;
-  std::array<std::int32_t, 3> image;   ///< unwrapped = position + image * box length
+  std::array<std::int32_t, 3> image;  ///< unwrapped = position + image * box length
   std::uint8_t frozen, removed;
 };
 
@@ -40,19 +43,21 @@ using AnyLawTable = std::variant<LawTable<HertzMindlin>, LawTable<Eepa>>;
 struct WallContact {
   std::int32_t wall;
   ContactHistory history;
-  Trio normal;           ///< from the grain into the wall, of the last step
+  Trio normal;  ///< from the grain into the wall, of the last step
   double overlap;
   ContactForce force;
   Trio on_grain, torque_on_grain;
 };
-struct WallCandidate { std::int32_t wall, first_triangle, triangle_count; };
+struct WallCandidate {
+  std::int32_t wall, first_triangle, triangle_count;
+};
 /// Which walls each grain may touch, and its wall contacts with their histories. Rows by slot.
 struct WallList {
-  std::vector<std::int32_t> first;            ///< [slot + 1] into candidate
+  std::vector<std::int32_t> first;  ///< [slot + 1] into candidate
   std::vector<WallCandidate> candidate;
   std::vector<int> triangle;
-  std::vector<std::int32_t> contact_first;    ///< [slot + 1] room for contacts
-  std::vector<std::uint8_t> contact_count;    ///< [slot] in use
+  std::vector<std::int32_t> contact_first;  ///< [slot + 1] room for contacts
+  std::vector<std::uint8_t> contact_count;  ///< [slot] in use
   std::vector<WallContact> contact;
 };
 
@@ -76,7 +81,7 @@ struct Simulation::Impl {
   SimulationSetup setup;
   AnyLawTable laws;
   PeriodicBox box;
-  std::array<double, 3> snap{};               ///< see snapped()
+  std::array<double, 3> snap{};  ///< see snapped()
   std::vector<Trio> image_shift;
   std::vector<Counter> counters;
 
@@ -85,7 +90,7 @@ struct Simulation::Impl {
   std::vector<Motion> motion;
   std::vector<Load> load;
   std::vector<GrainCard> card;
-  std::vector<std::int32_t> slot_of_id;       ///< -1 = removed
+  std::vector<std::int32_t> slot_of_id;  ///< -1 = removed
   PairList pairs, spare_pairs;
   WallList wall_list;
   std::vector<WallModel> walls;
@@ -98,19 +103,20 @@ struct Simulation::Impl {
   // neighbour list book-keeping
   CellGrid grid;
   std::vector<Sphere> sphere_at_build;
-  std::int64_t listed = 0;                    ///< grains in the list; later slots are new
+  std::int64_t listed = 0;  ///< grains in the list; later slots are new
   double skin = 0;
   std::int64_t step_of_build = 0;
   bool list_valid = false, forces_valid = false;
-  bool one_material = true;                   ///< all grains of one material: law parameters stay in the batch
+  bool one_material = true;  ///< all grains of one material: law parameters stay in the batch
   std::vector<Crossing> crossings;
   std::vector<BlockBook> books;
   StepStatistics stats;
 
   std::int64_t grains() const { return static_cast<std::int64_t>(sphere.size()); }
   std::int64_t blocks() const { return (grains() + kGrainsPerBlock - 1) / kGrainsPerBlock; }
+  int team() const { return static_cast<int>(std::clamp<std::int64_t>(blocks(), 1, setup.threads)); }  ///< threads worth waking
   double time() const { return static_cast<double>(step_count) * setup.time_step_s; }
-  std::size_t slot(GrainId id) const;         ///< \throws UsageError for an unknown id
+  std::size_t slot(GrainId id) const;  ///< \throws UsageError for an unknown id
 
   // the step
   void step_once();
@@ -121,7 +127,7 @@ struct Simulation::Impl {
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
   void pair_forces(double dt);
-  void gather_and_kick(double dt);            ///< sums pair forces, adds walls and gravity, second half kick (dt = 0: no kick)
+  void gather_and_kick(double dt);  ///< sums pair forces, adds walls and gravity, second half kick (dt = 0: no kick)
   void settle_books(double dt);
   template <class L>
   void wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book, std::vector<WallContact>& scratch);
@@ -132,7 +138,7 @@ struct Simulation::Impl {
   double snapped(int axis, double v) const { return (v + snap[static_cast<std::size_t>(axis)]) - snap[static_cast<std::size_t>(axis)]; }
   Vec3 unwrapped(std::size_t s) const;
   Vec3 wrapped(const Vec3& p) const;
-  std::array<double, 3> wrap_correction(const Sphere& s) const;   ///< to add to get inside the box
+  std::array<double, 3> wrap_correction(const Sphere& s) const;  ///< to add to get inside the box
   GrainId add(const GrainInput& g);
 };
 

@@ -48,7 +48,7 @@ std::array<double, 3> Simulation::Impl::wrap_correction(const Sphere& s) const {
   for (std::size_t a = 0; a < 3; ++a) {
     if (!(box.length[a] > 0)) continue;
     const double turns = std::floor((p[a] - box.low[a]) / box.length[a]);
-    move[a] = std::isfinite(turns) ? turns : 0.0;
+    move[a] = std::abs(turns) < 1e9 ? turns : 0.0;  // also for a grain that blew up
   }
   return move;
 }
@@ -84,9 +84,9 @@ void Simulation::Impl::rebuild_list() {
     order.resize(alive.size());
     std::iota(order.begin(), order.end(), 0);
   } else {
-    order = grid.build(spheres, box, skin, setup.threads);
+    order = grid.build(spheres, box, skin, team());
   }
-  for (std::int32_t& k : order) k = alive[static_cast<std::size_t>(k)];   // new slot -> old slot
+  for (std::int32_t& k : order) k = alive[static_cast<std::size_t>(k)];  // new slot -> old slot
   permute(sphere, order);
   permute(motion, order);
   permute(load, order);
@@ -96,7 +96,7 @@ void Simulation::Impl::rebuild_list() {
   // 3. pairs and walls, histories carried
   std::vector<GrainId> ids(card.size());
   std::transform(card.begin(), card.end(), ids.begin(), [](const GrainCard& c) { return c.id; });
-  rebuild_pairs(pairs, spare_pairs, {sphere, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, skin, setup.threads});
+  rebuild_pairs(pairs, spare_pairs, {sphere, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, skin, team()});
   rebuild_walls(order);
   sphere_at_build = sphere;
   for (WallModel& w : walls) w.pose_at_build = w.pose;
@@ -118,9 +118,13 @@ void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) 
     const double reach = r_max + skin + w.swing_m;
     if (w.is_mesh() && !(w.bins.reach() >= reach && w.bins.reach() < 2 * reach)) w.bins.build(w.triangles, 1.3 * reach);
   }
-  struct Rows { std::vector<WallCandidate> candidate; std::vector<int> triangle; std::vector<std::int32_t> end, room; };
+  struct Rows {
+    std::vector<WallCandidate> candidate;
+    std::vector<int> triangle;
+    std::vector<std::int32_t> end, room;
+  };
   std::vector<Rows> rows(static_cast<std::size_t>(nb));
-#pragma omp parallel for schedule(dynamic, 1) num_threads(setup.threads) if (setup.threads > 1)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(team()) if (team() > 1)
   for (std::int64_t b = 0; b < nb; ++b) {
     Rows& out = rows[static_cast<std::size_t>(b)];
     for (std::int64_t i = b * kGrainsPerBlock; i < std::min(n, (b + 1) * kGrainsPerBlock); ++i) {
@@ -134,7 +138,8 @@ void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) 
         if (w.is_mesh()) {
           const auto [from, to] = w.bins.near(centre);
           for (const int* t = from; t != to; ++t)
-            if ((nearest_on_triangle(w.triangles[static_cast<std::size_t>(*t)], centre) - centre).squaredNorm() < reach * reach) out.triangle.push_back(*t);
+            if ((nearest_on_triangle(w.triangles[static_cast<std::size_t>(*t)], centre) - centre).squaredNorm() < reach * reach)
+              out.triangle.push_back(*t);
           const std::int32_t count = static_cast<std::int32_t>(out.triangle.size()) - first;
           if (count == 0) continue;
           out.candidate.push_back({static_cast<std::int32_t>(k), first, count});

@@ -10,8 +10,8 @@ namespace venato::dem {
 namespace {
 GrainState state_of(const Simulation::Impl& e, std::size_t s) {
   const Motion& m = e.motion[s];
-  return {e.card[s].id, e.unwrapped(s), to_vec3(m.velocity), to_vec3(m.spin), to_vec3(e.load[s].force), to_vec3(e.load[s].torque),
-          e.sphere[s].r, m.mass, e.card[s].species, e.card[s].material, e.card[s].frozen != 0};
+  return {e.card[s].id,  e.unwrapped(s), to_vec3(m.velocity), to_vec3(m.spin),    to_vec3(e.load[s].force), to_vec3(e.load[s].torque),
+          e.sphere[s].r, m.mass,         e.card[s].species,   e.card[s].material, e.card[s].frozen != 0};
 }
 
 /// Slots of living grains by ascending id.
@@ -54,7 +54,10 @@ void for_wall_contacts(const Simulation::Impl& e, const F& f) {
 /// FNV-1a over 64-bit words.
 struct Hash {
   std::uint64_t h = 14695981039346656037ull;
-  void add(std::uint64_t v) { h = (h ^ v) * 1099511628211ull; h ^= h >> 29; }
+  void add(std::uint64_t v) {
+    h = (h ^ v) * 1099511628211ull;
+    h ^= h >> 29;
+  }
   void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
   void add(const Trio& t) { add(t.x), add(t.y), add(t.z); }
   void add(const ContactHistory& c) { add(c.spring), add(c.contact_radius), add(c.rolling), add(c.plastic); }
@@ -184,29 +187,35 @@ bool Simulation::is_free(const Vec3& position, double radius) const {
 }
 
 double Simulation::wall_gap_m(const Vec3& position, double radius) const {
-  const Impl& e = *impl_;
+  Impl& e = *impl_;
   const Vec3 p = e.wrapped(position);
   double gap = std::numeric_limits<double>::infinity();
-  for (const WallModel& w : e.walls) {
+  for (WallModel& w : e.walls) {
     if (!w.present(e.time())) continue;
     const Vec3 c = w.into_wall_frame(p);
-    if (const auto* plane = std::get_if<PlaneShape>(&w.wall.shape)) gap = std::min(gap, touch_plane(*plane, c).distance - radius);
+    if (const auto* plane = std::get_if<PlaneShape>(&w.wall.shape))
+      gap = std::min(gap, touch_plane(*plane, c).distance - radius);
     else if (const auto* cylinder = std::get_if<CylinderShape>(&w.wall.shape)) {
       if (const auto t = touch_cylinder(*cylinder, c, cylinder->radius_m)) gap = std::min(gap, t->distance - radius);
     } else {
-      for (const Triangle& t : w.triangles) gap = std::min(gap, (nearest_on_triangle(t, c) - c).norm() - radius);
+      if (w.bins.reach() < radius) w.bins.build(w.triangles, 1.3 * radius);  // broad phase, never a result
+      const auto [first, last] = w.bins.near(c);
+      for (const int* t = first; t != last; ++t)
+        gap = std::min(gap, (nearest_on_triangle(w.triangles[static_cast<std::size_t>(*t)], c) - c).norm() - radius);
     }
   }
   return gap;
 }
 
-double Simulation::bed_top_m(const Vec3& low, const Vec3& high) const {
+double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_speed_m_s) const {
   const Impl& e = *impl_;
   double top = -std::numeric_limits<double>::infinity();
   const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
   for (std::size_t s = 0; s < listed; ++s) {
     const Sphere& x = e.sphere[s];
     if (!living(e, s) || x.z <= top) continue;
+    const Trio& v = e.motion[s].velocity;
+    if (v.x * v.x + v.y * v.y + v.z * v.z > resting_speed_m_s * resting_speed_m_s) continue;
     const Vec3 p = e.wrapped(Vec3(x.x, x.y, x.z));
     if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
     bool touches = e.wall_list.contact_count[s] > 0;
@@ -242,7 +251,7 @@ std::uint64_t Simulation::state_hash() const {
     h.add(p.x()), h.add(p.y()), h.add(p.z()), h.add(e.sphere[s].r);
     h.add(e.motion[s].velocity), h.add(e.motion[s].spin), h.add(e.load[s].force), h.add(e.load[s].torque);
   }
-  std::uint64_t contacts = 0;   // sum of hashes: does not depend on the order of slots
+  std::uint64_t contacts = 0;  // sum of hashes: does not depend on the order of slots
   for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
     Hash c;
     c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.pairs.partner[p])), c.add(e.pairs.history[p]);

@@ -11,7 +11,7 @@ template <class L>
 class BatchRunner {
  public:
   BatchRunner(Simulation::Impl& sim, const LawTable<L>& table, double dt, BlockBook& book) : sim_(sim), table_(table), dt_(dt), book_(book) {
-    for (int l = 0; l < kBatchWidth; ++l) {   // harmless numbers for lanes that stay empty
+    for (int l = 0; l < kBatchWidth; ++l) {  // harmless numbers for lanes that stay empty
       b_.from_i_x[l] = 1.5, b_.from_i_y[l] = b_.from_i_z[l] = b_.dv_x[l] = b_.dv_y[l] = b_.dv_z[l] = 0;
       b_.wi_x[l] = b_.wi_y[l] = b_.wi_z[l] = b_.wj_x[l] = b_.wj_y[l] = b_.wj_z[l] = 0;
       b_.radius_i[l] = b_.radius_j[l] = b_.inverse_mass_i[l] = b_.inverse_mass_j[l] = 1;
@@ -36,7 +36,7 @@ class BatchRunner {
     b_.wj_x[l] = c.spin.x, b_.wj_y[l] = c.spin.y, b_.wj_z[l] = c.spin.z;
     b_.radius_i[l] = sim_.sphere[i].r, b_.radius_j[l] = sim_.sphere[j].r;
     b_.inverse_mass_i[l] = a.inverse_mass, b_.inverse_mass_j[l] = c.inverse_mass;
-    if (a.inverse_mass + c.inverse_mass == 0) b_.inverse_mass_i[l] = 1 / a.mass, b_.inverse_mass_j[l] = 1 / c.mass;   // both frozen
+    if (a.inverse_mass + c.inverse_mass == 0) b_.inverse_mass_i[l] = 1 / a.mass, b_.inverse_mass_j[l] = 1 / c.mass;  // both frozen
     if (!sim_.one_material) set_law(l, table_.of(sim_.card[i].material, sim_.card[j].material));
     const ContactHistory h = sim_.pairs.touching[p] ? sim_.pairs.history[p] : ContactHistory{};
     b_.history[0][l] = h.spring.x, b_.history[1][l] = h.spring.y, b_.history[2][l] = h.spring.z, b_.history[3][l] = h.contact_radius;
@@ -123,7 +123,7 @@ void Simulation::Impl::pair_forces(double dt) {
   books.resize(static_cast<std::size_t>(nb));
   std::visit(
       [&](const auto& table) {
-#pragma omp parallel for schedule(dynamic, 1) num_threads(setup.threads) if (setup.threads > 1)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(team()) if (team() > 1)
         for (std::int64_t b = 0; b < nb; ++b) run_block(*this, table, dt, b);
       },
       laws);

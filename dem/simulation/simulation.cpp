@@ -16,7 +16,7 @@ LawTable<L> make_table(const MaterialTable& m, const Make& make) {
   t.materials = m.materials.size();
   for (int a = 0; a < static_cast<int>(t.materials); ++a)
     for (int b = 0; b < static_cast<int>(t.materials); ++b)
-      t.law.push_back(b < a ? t.of(b, a) : make(a, b));   // solved once per unordered pair: exactly symmetric
+      t.law.push_back(b < a ? t.of(b, a) : make(a, b));  // solved once per unordered pair: exactly symmetric
   return t;
 }
 
@@ -43,7 +43,7 @@ Simulation::Impl::Impl(const SimulationSetup& s) : setup(s) {
   for (int a = 0; a < 3; ++a) {
     if (!s.box.periodic[a]) continue;
     const double extent = std::max({std::abs(s.box.low[a]), std::abs(s.box.high[a]), s.box.high[a] - s.box.low[a]});
-    snap[static_cast<std::size_t>(a)] = 1.5 * std::exp2(std::ceil(std::log2(extent)) + 1);   // quantum 2^-51 of the extent: room for the wrap
+    snap[static_cast<std::size_t>(a)] = 1.5 * std::exp2(std::ceil(std::log2(extent)) + 1);  // quantum 2^-51 of the extent: room for the wrap
     setup.box.low[a] = snapped(a, s.box.low[a]);
     setup.box.high[a] = snapped(a, s.box.high[a]);
   }
@@ -68,12 +68,14 @@ GrainId Simulation::Impl::add(const GrainInput& g) {
   const std::string who = "grain " + std::to_string(id);
   if (!(g.radius_m > 0) || !std::isfinite(g.radius_m)) throw UsageError(who + ": radius " + std::to_string(g.radius_m) + " m is not > 0");
   if (g.material < 0 || g.material >= static_cast<int>(setup.materials.materials.size()))
-    throw UsageError(who + ": material " + std::to_string(g.material) + " is not in the table of " + std::to_string(setup.materials.materials.size()));
+    throw UsageError(who + ": material " + std::to_string(g.material) + " is not in the table of " +
+                     std::to_string(setup.materials.materials.size()));
   if (!g.position_m.allFinite() || !g.velocity_m_s.allFinite() || !g.spin_rad_s.allFinite()) throw UsageError(who + ": its state is not finite");
   const Material& material = setup.materials.materials[static_cast<std::size_t>(g.material)];
   const double mass = g.mass_kg > 0 ? g.mass_kg : 4.0 / 3.0 * std::numbers::pi * g.radius_m * g.radius_m * g.radius_m * material.density_kg_m3;
   if (!(mass > 0) || !std::isfinite(mass))
-    throw UsageError(who + ": material '" + material.name + "' has density " + std::to_string(material.density_kg_m3) + " kg/m3, which gives no mass");
+    throw UsageError(who + ": material '" + material.name + "' has density " + std::to_string(material.density_kg_m3) +
+                     " kg/m3, which gives no mass");
   Vec3 p;
   for (int a = 0; a < 3; ++a) p[a] = snapped(a, g.position_m[a]);
   sphere.push_back({p.x(), p.y(), p.z(), g.radius_m});

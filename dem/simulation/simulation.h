@@ -20,34 +20,34 @@
 
 namespace venato::dem {
 
-using GrainId = std::int64_t;   ///< given in order of insertion from 0, never reused
+using GrainId = std::int64_t;  ///< given in order of insertion from 0, never reused
 
 struct SimulationSetup {
   MaterialTable materials;
   LawKind law = LawKind::hertz_mindlin_epsd;
   EepaParameters eepa;
-  Box box;                                    ///< only its periodic directions matter here; run_case() removes what leaves it elsewhere
+  Box box;  ///< only its periodic directions matter here; run_case() removes what leaves it elsewhere
   Vec3 gravity_m_s2 = Vec3(0, 0, -9.80665);
-  double time_step_s = 0;                     ///< > 0
+  double time_step_s = 0;  ///< > 0
   int threads = 1;
-  double skin_m = 0;                          ///< of the Verlet list; 0 = chosen from the grain sizes. Never changes results
-  bool track_energy = false;                  ///< fill EnergyBook's dissipated_* and wall_work (some % slower)
-  bool brute_force_neighbours = false;        ///< every pair instead of the grid: for tests
+  double skin_m = 0;                    ///< of the Verlet list; 0 = chosen from the grain sizes. Never changes results
+  bool track_energy = false;            ///< fill EnergyBook's dissipated_* and wall_work (some % slower)
+  bool brute_force_neighbours = false;  ///< every pair instead of the grid: for tests
 };
 
 struct GrainInput {
   Vec3 position_m = Vec3::Zero(), velocity_m_s = Vec3::Zero(), spin_rad_s = Vec3::Zero();
-  double radius_m = 0;                        ///< > 0
+  double radius_m = 0;  ///< > 0
   int species = 0, material = 0;
-  bool frozen = false;                        ///< never accelerated (keeps its velocity and spin); counts as infinitely heavy in contacts
-  double mass_kg = 0;                         ///< 0 = 4/3 pi R^3 density; inertia is 2/5 m R^2 of a solid sphere in both cases
+  bool frozen = false;  ///< never accelerated (keeps its velocity and spin); counts as infinitely heavy in contacts
+  double mass_kg = 0;   ///< 0 = 4/3 pi R^3 density; inertia is 2/5 m R^2 of a solid sphere in both cases
 };
 
 struct GrainState {
   GrainId id;
-  Vec3 position_m;                            ///< unwrapped across periodic faces
-  Vec3 velocity_m_s, spin_rad_s;              ///< at the full step
-  Vec3 force_n, torque_n_m;                   ///< total incl. gravity
+  Vec3 position_m;                ///< unwrapped across periodic faces
+  Vec3 velocity_m_s, spin_rad_s;  ///< at the full step
+  Vec3 force_n, torque_n_m;       ///< total incl. gravity
   double radius_m, mass_kg;
   int species, material;
   bool frozen;
@@ -56,29 +56,31 @@ struct GrainState {
 /// One grain-grain contact seen from grain i (i < j) or one grain-wall contact (j = -1).
 struct ContactState {
   GrainId i, j;
-  int wall;                                   ///< -1 for grain-grain
+  int wall;  ///< -1 for grain-grain
   double overlap_m;
-  Vec3 normal;                                ///< unit, from i towards j (or towards the wall)
-  double normal_force_n;                      ///< > 0 pushes apart
-  Vec3 tangential_spring_n;                   ///< spring part of the tangential force on i, co-rotating with the contact
-  Vec3 tangential_force_n;                    ///< on i: spring + damping after the Coulomb cap
-  Vec3 rolling_spring_n_m;                    ///< spring part of the rolling torque on i
-  Vec3 rolling_torque_n_m;                    ///< on i: spring + damping after its cap
-  Vec3 force_n, torque_n_m;                   ///< total contact force and torque on i
+  Vec3 normal;               ///< unit, from i towards j (or towards the wall)
+  double normal_force_n;     ///< > 0 pushes apart
+  Vec3 tangential_spring_n;  ///< spring part of the tangential force on i, co-rotating with the contact
+  Vec3 tangential_force_n;   ///< on i: spring + damping after the Coulomb cap
+  Vec3 rolling_spring_n_m;   ///< spring part of the rolling torque on i
+  Vec3 rolling_torque_n_m;   ///< on i: spring + damping after its cap
+  Vec3 force_n, torque_n_m;  ///< total contact force and torque on i
 };
 
-struct WallLoad { Vec3 force_n = Vec3::Zero(), torque_n_m = Vec3::Zero(); };   ///< by the grains on the wall; torque about rotation_centre
+struct WallLoad {
+  Vec3 force_n = Vec3::Zero(), torque_n_m = Vec3::Zero();
+};  ///< by the grains on the wall; torque about rotation_centre
 
 /// Energies at the current full step. kinetic + potential + elastic_* + dissipated_* - wall_work is constant up to the integration error.
 struct EnergyBook {
   double kinetic_translation_j = 0, kinetic_rotation_j = 0;
-  double potential_j = 0;                                 ///< -m g . x, unwrapped positions
+  double potential_j = 0;  ///< -m g . x, unwrapped positions
   double elastic_normal_j = 0, elastic_tangential_j = 0, elastic_rolling_j = 0;
-  double dissipated_normal_j = 0;                         ///< normal damping, F_n >= 0 clamp, plastic work of EEPA
+  double dissipated_normal_j = 0;  ///< normal damping, F_n >= 0 clamp, plastic work of EEPA
   double dissipated_tangential_damping_j = 0;
-  double dissipated_sliding_j = 0;                        ///< Coulomb slip and the loss of rescaling / stiffening of the tangential spring
-  double dissipated_rolling_j = 0;                        ///< rolling damping and full mobilisation
-  double wall_work_j = 0;                                 ///< done by moving walls on the grains
+  double dissipated_sliding_j = 0;  ///< Coulomb slip and the loss of rescaling / stiffening of the tangential spring
+  double dissipated_rolling_j = 0;  ///< rolling damping and full mobilisation
+  double wall_work_j = 0;           ///< done by moving walls on the grains
   double kinetic_j() const { return kinetic_translation_j + kinetic_rotation_j; }
   double elastic_j() const { return elastic_normal_j + elastic_tangential_j + elastic_rolling_j; }
   double dissipated_j() const { return dissipated_normal_j + dissipated_tangential_damping_j + dissipated_sliding_j + dissipated_rolling_j; }
@@ -87,19 +89,19 @@ struct EnergyBook {
 /// A grain centre crossed a counter plane during the last steps (all crossings; first_only / remove are the caller's).
 struct Crossing {
   int counter;
-  double time_s, fraction;                                ///< linear inside the step; fraction 0 = start of the step
+  double time_s, fraction;  ///< linear inside the step; fraction 0 = start of the step
   GrainId id;
-  Vec3 position_m;                                        ///< interpolated, unwrapped
-  Vec3 velocity_m_s, spin_rad_s;                          ///< half-step values
+  Vec3 position_m;                ///< interpolated, unwrapped
+  Vec3 velocity_m_s, spin_rad_s;  ///< half-step values
 };
 
-struct StepStatistics {                                   ///< since the last reset_statistics()
+struct StepStatistics {  ///< since the last reset_statistics()
   std::int64_t steps = 0, list_builds = 0;
-  double pair_count = 0, contact_count = 0;               ///< of the last step
+  double pair_count = 0, contact_count = 0;  ///< of the last step
   double max_speed_m_s = 0;
   GrainId fastest = -1;
-  double max_overlap = 0;                                 ///< overlap / radius of the smaller grain
-  double seconds_list = 0, seconds_contact = 0, seconds_sum = 0, seconds_integrate = 0, seconds_walls = 0;   ///< wall clock by phase
+  double max_overlap = 0;                                                                                   ///< overlap / radius of the smaller grain
+  double seconds_list = 0, seconds_contact = 0, seconds_sum = 0, seconds_integrate = 0, seconds_walls = 0;  ///< wall clock by phase
 };
 
 class Simulation {
@@ -116,11 +118,11 @@ class Simulation {
   GrainId insert_free_grain(const GrainInput& grain);
   void remove_grain(GrainId id);
   void remove_grains(std::span<const GrainId> ids);
-  int add_wall(const Wall& wall);                          ///< returns its index
+  int add_wall(const Wall& wall);  ///< returns its index
   void set_wall_motion(int wall, const WallMotion& motion);
   /// Sets velocity and spin of a grain (kicks, frozen grains that are moved kinematically).
   void set_velocity(GrainId id, const Vec3& velocity_m_s, const Vec3& spin_rad_s);
-  void set_position(GrainId id, const Vec3& position_m);   ///< histories of its contacts stay
+  void set_position(GrainId id, const Vec3& position_m);  ///< histories of its contacts stay
   void set_gravity(const Vec3& gravity_m_s2);
   void set_counters(const std::vector<Counter>& counters);
 
@@ -137,25 +139,27 @@ class Simulation {
   std::size_t grain_count() const;
   bool has_grain(GrainId id) const;
   GrainState grain(GrainId id) const;
-  std::vector<GrainId> grain_ids() const;                  ///< ascending
-  std::vector<GrainState> grains() const;                  ///< ascending ids
+  std::vector<GrainId> grain_ids() const;  ///< ascending
+  std::vector<GrainState> grains() const;  ///< ascending ids
   /// Touching contacts, grain-grain sorted by (i, j), then grain-wall sorted by (i, wall).
   std::vector<ContactState> contacts() const;
   std::size_t wall_count() const;
-  WallLoad wall_load(int wall) const;                      ///< of the last step
-  Vec3 wall_impulse_n_s(int wall) const;                   ///< sum of force * dt since the start
-  Vec3 wall_offset_m(int wall) const;                      ///< displacement of the wall from its drawn place (translation part)
-  double mean_contacts() const;                            ///< per grain, walls counted once, of the last step
+  WallLoad wall_load(int wall) const;     ///< of the last step
+  Vec3 wall_impulse_n_s(int wall) const;  ///< sum of force * dt since the start
+  Vec3 wall_offset_m(int wall) const;     ///< displacement of the wall from its drawn place (translation part)
+  double mean_contacts() const;           ///< per grain, walls counted once, of the last step
   bool wall_present(int wall) const;
-  Vec3 wall_point_m(int wall, const Vec3& drawn_point_m) const;   ///< where a point of the wall as drawn is now
+  Vec3 wall_point_m(int wall, const Vec3& drawn_point_m) const;  ///< where a point of the wall as drawn is now
   EnergyBook energy() const;
-  std::vector<Crossing> take_crossings();                  ///< sorted by (time, id, counter); empties the buffer
+  std::vector<Crossing> take_crossings();  ///< sorted by (time, id, counter); empties the buffer
   /// No grain overlaps the sphere (walls are not looked at).
   bool is_free(const Vec3& position_m, double radius_m) const;
-  /// Signed gap of a sphere to the nearest present wall [m]; +infinity without walls.
+  /// Signed gap of a sphere to the nearest present wall [m]; +infinity without walls. Exact where it matters: gaps to meshes beyond about
+  /// 0.3 radius may be reported larger.
   double wall_gap_m(const Vec3& position_m, double radius_m) const;
-  /// Highest centre of the grains that touch something inside the columns low.xy … high.xy [m]; -infinity when there are none.
-  double bed_top_m(const Vec3& low, const Vec3& high) const;
+  /// Highest centre of the grains that rest on something inside the columns low.xy … high.xy [m]; -infinity when there are none. Resting = touching and slower than
+  /// `resting_speed_m_s`: grains that bounce on their way down do not count.
+  double bed_top_m(const Vec3& low, const Vec3& high, double resting_speed_m_s) const;
   /// Ids of grains whose centre is outside the box in a non-periodic direction (after the last step), ascending.
   std::vector<GrainId> grains_outside(const Box& box) const;
   /// Order-independent 64-bit hash of the complete dynamic state (grains, histories, time): equal hashes = equal bytes.
@@ -164,10 +168,10 @@ class Simulation {
   void reset_statistics();
 
   // ---- checkpoint ----------------------------------------------------------------------------------------------------------
-  std::vector<std::uint8_t> save_state() const;            ///< everything that step() depends on, except setup, walls and counters
-  void load_state(std::span<const std::uint8_t> bytes);    ///< into a Simulation made with the same setup, walls and counters
+  std::vector<std::uint8_t> save_state() const;          ///< everything that step() depends on, except setup, walls and counters
+  void load_state(std::span<const std::uint8_t> bytes);  ///< into a Simulation made with the same setup, walls and counters
 
-  struct Impl;   ///< the engine itself (dem/simulation/impl.h)
+  struct Impl;  ///< the engine itself (dem/simulation/impl.h)
 
  private:
   std::unique_ptr<Impl> impl_;

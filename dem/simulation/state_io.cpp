@@ -4,7 +4,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::uint64_t kMagic = 0x314d45444f4e4556ull;   // "VENODEM1"
+constexpr std::uint64_t kMagic = 0x314d45444f4e4556ull;  // "VENODEM1"
 
 /// Fields of the state in order; the same function writes and reads, so the two cannot drift apart.
 template <class Archive, class Impl>

@@ -59,7 +59,7 @@ void Simulation::Impl::kick_and_drift() {
   const double dt = setup.time_step_s, half = 0.5 * dt, start = time() - dt;
   const std::int64_t n = grains(), nb = blocks();
   books.resize(static_cast<std::size_t>(nb));
-#pragma omp parallel for schedule(static) num_threads(setup.threads) if (setup.threads > 1)
+#pragma omp parallel for schedule(static) num_threads(team()) if (team() > 1)
   for (std::int64_t b = 0; b < nb; ++b) {
     BlockBook& book = books[static_cast<std::size_t>(b)];
     book.moved2 = book.speed2 = book.overlap = 0, book.fastest = -1, book.contacts = 0, book.loss = {}, book.wall_work = 0;
@@ -76,7 +76,7 @@ void Simulation::Impl::kick_and_drift() {
       const Trio way = s < sphere_at_build.size() ? Trio{x.x - sphere_at_build[s].x, x.y - sphere_at_build[s].y, x.z - sphere_at_build[s].z} : Trio{};
       book.moved2 = std::max(book.moved2, dot(way, way));
       const double speed2 = dot(m.velocity, m.velocity);
-      if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = card[s].id;   // NaN wins
+      if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = card[s].id;  // NaN wins
       const double now[3] = {x.x, x.y, x.z};
       for (std::size_t c = 0; c < counters.size(); ++c) {
         const Counter& k = counters[c];
@@ -107,7 +107,7 @@ void Simulation::Impl::gather_and_kick(double dt) {
   const std::int64_t n = grains(), nb = blocks();
   const double half = 0.5 * dt;
   const Trio gravity = to_trio(setup.gravity_m_s2);
-#pragma omp parallel num_threads(setup.threads) if (setup.threads > 1)
+#pragma omp parallel num_threads(team()) if (team() > 1)
   {
     std::vector<WallContact> scratch;
 #pragma omp for schedule(dynamic, 1)
@@ -123,11 +123,12 @@ void Simulation::Impl::gather_and_kick(double dt) {
           const std::size_t p = entry >> 1;
           if (!pairs.touching[p]) continue;
           const PairForce& f = pairs.force[p];
-          if (entry & 1) sum.force = sum.force - f.on_i, sum.torque = sum.torque + f.torque_j;
-          else sum.force = sum.force + f.on_i, sum.torque = sum.torque + f.torque_i;
+          if (entry & 1)
+            sum.force = sum.force - f.on_i, sum.torque = sum.torque + f.torque_j;
+          else
+            sum.force = sum.force + f.on_i, sum.torque = sum.torque + f.torque_i;
         }
-        if (wall_list.first[s] < wall_list.first[s + 1])
-          std::visit([&](const auto& table) { wall_forces(table, s, dt, sum, book, scratch); }, laws);
+        if (wall_list.first[s] < wall_list.first[s + 1]) std::visit([&](const auto& table) { wall_forces(table, s, dt, sum, book, scratch); }, laws);
         sum.force = sum.force + m.mass * gravity;
         load[s] = sum;
         m.velocity = m.velocity + (half * m.inverse_mass) * sum.force;

@@ -6,7 +6,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr double kSameContact = 0.8;   // cosine: from step to step a contact's normal turns by far less, corners of a mesh differ by more
+constexpr double kSameContact = 0.8;  // cosine: from step to step a contact's normal turns by far less, corners of a mesh differ by more
 
 /// Contact of the last step that this touch continues, by the best match of normals; so the history survives going from triangle to triangle.
 const WallContact* continued(std::span<const WallContact> before, std::uint32_t& taken, std::int32_t wall, const Trio& normal) {
@@ -29,11 +29,11 @@ ContactGeometry wall_frame(const Sphere& x, const Motion& m, const Trio& n, cons
   ContactGeometry g;
   g.overlap = overlap;
   g.approach = -dot(dv, n);
-  g.slide = cross(x.r * m.spin, n_half) - across(dv, n_half);   // lever R on walls: the spin identities of verification.md 3.1 hold exactly
+  g.slide = cross(x.r * m.spin, n_half) - across(dv, n_half);  // lever R on walls: the spin identities of verification.md 3.1 hold exactly
   g.roll = across(m.spin - wall_spin, n);
   g.normal = n;
   g.turn = frame_turn(n_before, n, n, 0.5 * dot(m.spin + wall_spin, n) * dt);
-  g.r_eff = x.r;                                                // R* = R on every wall, also inside cylinders
+  g.r_eff = x.r;  // R* = R on every wall, also inside cylinders
   g.m_eff = m.mass;
   g.i_roll = 1.4 * m.mass * x.r * x.r;
   return g;
@@ -41,7 +41,8 @@ ContactGeometry wall_frame(const Sphere& x, const Motion& m, const Trio& n, cons
 }  // namespace
 
 template <class L>
-void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book, std::vector<WallContact>& scratch) {
+void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book,
+                                   std::vector<WallContact>& scratch) {
   const Sphere& x = sphere[s];
   const Motion& m = motion[s];
   WallContact* row = wall_list.contact.data() + wall_list.contact_first[s];
@@ -78,7 +79,7 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
         const ContactLoss loss = law.loss(g, earlier, now.history, now.force, dt);
         book.loss.normal += loss.normal, book.loss.tangential_damping += loss.tangential_damping;
         book.loss.sliding += loss.sliding, book.loss.rolling += loss.rolling;
-        const Trio push = old ? 0.5 * (old->on_grain + now.on_grain) : 0.5 * now.on_grain;   // trapezoid
+        const Trio push = old ? 0.5 * (old->on_grain + now.on_grain) : 0.5 * now.on_grain;  // trapezoid
         book.wall_work += (dot(push, wall_velocity) + dot(now.force.rolling, wall_spin)) * dt;
       }
       scratch.push_back(now);

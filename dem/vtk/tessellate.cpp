@@ -1,6 +1,6 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 

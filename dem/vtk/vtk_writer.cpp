@@ -55,8 +55,8 @@ std::vector<std::int32_t> counting(std::size_t n, std::int32_t first, std::int32
 }
 
 std::string file_text(const std::string& piece, const Appended& data) {
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n" + piece +
-         "</PolyData>\n<AppendedData encoding=\"raw\">\n_" + data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n" +
+         piece + "</PolyData>\n<AppendedData encoding=\"raw\">\n_" + data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
 }
 
 std::string numbered(const char* kind, int frame) {
@@ -69,7 +69,8 @@ void write_pvd(const std::filesystem::path& folder, const char* kind, std::span<
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
   for (std::size_t k = 0; k < times_s.size(); ++k) {
     char line[160];
-    std::snprintf(line, sizeof line, "<DataSet timestep=\"%.9g\" part=\"0\" file=\"%s\"/>\n", times_s[k], numbered(kind, static_cast<int>(k)).c_str());
+    std::snprintf(line, sizeof line, "<DataSet timestep=\"%.9g\" part=\"0\" file=\"%s\"/>\n", times_s[k],
+                  numbered(kind, static_cast<int>(k)).c_str());
     text += line;
   }
   write_text_atomically(folder / (std::string(kind) + ".pvd"), text + "</Collection>\n</VTKFile>\n");

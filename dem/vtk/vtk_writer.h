@@ -12,10 +12,10 @@ namespace venato::dem {
 
 /// One frame of grains; all spans have the same length (order as given; sort by id for reproducible files).
 struct VtkGrains {
-  std::span<const Vec3> position_m;        ///< [m]
-  std::span<const Vec3> velocity_m_s;      ///< [m/s]
-  std::span<const double> radius_m;        ///< [m]
-  std::span<const std::int32_t> species;   ///< powder index
+  std::span<const Vec3> position_m;       ///< [m]
+  std::span<const Vec3> velocity_m_s;     ///< [m/s]
+  std::span<const double> radius_m;       ///< [m]
+  std::span<const std::int32_t> species;  ///< powder index
   std::span<const std::int64_t> id;
 };
 

@@ -6,10 +6,10 @@ namespace venato::dem {
 
 /// Rigid placement at one time: x(t) = centre + offset + turn * (x(0) - centre).
 struct WallPose {
-  Vec3 offset_m = Vec3::Zero();                       ///< all translations together
-  Vec3 steady_offset_m = Vec3::Zero();                ///< without the vibration (what neighbour lists must follow)
+  Vec3 offset_m = Vec3::Zero();         ///< all translations together
+  Vec3 steady_offset_m = Vec3::Zero();  ///< without the vibration (what neighbour lists must follow)
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  bool turned = false;                                ///< false: `turn` is exactly the identity
+  bool turned = false;  ///< false: `turn` is exactly the identity
 };
 
 /// Vibration: A sin(2 pi f t' + phase) - A sin(phase), t' since the last `on`. After `off` the wall finishes its swing: it stops at the first zero

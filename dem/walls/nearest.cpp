@@ -36,9 +36,9 @@ std::optional<WallTouch> touch_cylinder(const CylinderShape& s, const Vec3& cent
   const double along = s.axis.dot(from_base);
   const Vec3 across = from_base - along * s.axis;
   const double rho = across.norm();
-  if (rho < 1e-12 * s.radius_m) return std::nullopt;   // on the axis: no side is nearer (radius >> grain)
+  if (rho < 1e-12 * s.radius_m) return std::nullopt;  // on the axis: no side is nearer (radius >> grain)
   const Vec3 out = across / rho;
-  if (along < 0 || along > s.length_m) {               // the rim of the open end
+  if (along < 0 || along > s.length_m) {  // the rim of the open end
     const Vec3 rim = s.base + (along < 0 ? 0.0 : s.length_m) * s.axis + s.radius_m * out;
     const Vec3 to = rim - centre;
     const double d = to.norm();
@@ -52,7 +52,11 @@ std::optional<WallTouch> touch_cylinder(const CylinderShape& s, const Vec3& cent
 }
 
 MeshTouches touch_mesh(const std::vector<Triangle>& triangles, const int* first, const int* last, const Vec3& centre, double radius) {
-  struct Near { double d2; int triangle; Vec3 point; };
+  struct Near {
+    double d2;
+    int triangle;
+    Vec3 point;
+  };
   constexpr int kMost = 64;
   Near near[kMost];
   int n = 0;
@@ -62,19 +66,20 @@ MeshTouches touch_mesh(const std::vector<Triangle>& triangles, const int* first,
     if (!(d2 < radius * radius)) continue;
     if (n < kMost) {
       near[n++] = {d2, *k, q};
-    } else {                                            // absurdly fine mesh: keep the nearest ones
+    } else {  // absurdly fine mesh: keep the nearest ones
       Near* worst = std::max_element(near, near + n, [](const Near& a, const Near& b) { return a.d2 < b.d2; });
       if (d2 < worst->d2) *worst = {d2, *k, q};
     }
   }
   std::sort(near, near + n, [](const Near& a, const Near& b) { return a.d2 < b.d2 || (a.d2 == b.d2 && a.triangle < b.triangle); });
   MeshTouches out;
-  const double same = 1e-4 * radius;                    // meshes from single-precision files have gaps of 1e-7 of their size
+  const double same = 1e-4 * radius;  // meshes from single-precision files have gaps of 1e-7 of their size
   for (int k = 0; k < n && out.count < kMaxTouches; ++k) {
     bool covered = false;
     for (int m = 0; m < k && !covered; ++m)
-      covered = (near[m].point - near[k].point).squaredNorm() < same * same ||
-                (nearest_on_triangle(triangles[static_cast<std::size_t>(near[m].triangle)], near[k].point) - near[k].point).squaredNorm() < same * same;
+      covered =
+          (near[m].point - near[k].point).squaredNorm() < same * same ||
+          (nearest_on_triangle(triangles[static_cast<std::size_t>(near[m].triangle)], near[k].point) - near[k].point).squaredNorm() < same * same;
     if (covered || near[k].d2 == 0) continue;
     const double d = std::sqrt(near[k].d2);
     out.touch[out.count++] = {near[k].point, (near[k].point - centre) / d, d};

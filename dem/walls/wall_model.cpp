@@ -40,7 +40,7 @@ void TriangleBins::build(const std::vector<Triangle>& triangles, double reach) {
       for (int y = lo[1]; y <= hi[1]; ++y)
         for (int x = lo[0]; x <= hi[0]; ++x) {
           const Vec3 middle = low_ + cell_ * Vec3(x + 0.5, y + 0.5, z + 0.5);
-          if ((nearest_on_triangle(t, middle) - middle).norm() > far) continue;   // sloping triangles leave most of their bounding box
+          if ((nearest_on_triangle(t, middle) - middle).norm() > far) continue;  // sloping triangles leave most of their bounding box
           bin[(static_cast<std::size_t>(z) * static_cast<std::size_t>(n_[1]) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(n_[0]) +
               static_cast<std::size_t>(x)]
               .push_back(static_cast<int>(k));
@@ -94,7 +94,8 @@ WallModel make_wall(const Wall& wall) {
   const double rate = wall.motion.rotation_rad_s.norm();
   const Vec3 spin_axis = rate > 0 ? Vec3(wall.motion.rotation_rad_s / rate) : Vec3(Vec3::Zero());
   if (auto* plane = std::get_if<PlaneShape>(&w.wall.shape)) {
-    if (!(plane->normal.norm() > 0) || !plane->normal.allFinite() || !plane->point.allFinite()) fail("a plane needs a finite point and a normal that is not zero");
+    if (!(plane->normal.norm() > 0) || !plane->normal.allFinite() || !plane->point.allFinite())
+      fail("a plane needs a finite point and a normal that is not zero");
     if (std::abs(plane->normal.norm() - 1) > 1e-12) plane->normal.normalize();
     w.endless = rate > 0 && plane->normal.cross(spin_axis).norm() > 1e-9;
   } else if (auto* cylinder = std::get_if<CylinderShape>(&w.wall.shape)) {

@@ -25,17 +25,17 @@ class TriangleBins {
 
 struct WallModel {
   Wall wall;
-  std::vector<Triangle> triangles;   ///< of a mesh
+  std::vector<Triangle> triangles;  ///< of a mesh
   TriangleBins bins;
   WallPose pose, pose_before, pose_at_build;
-  Vec3 step_velocity_m_s = Vec3::Zero();   ///< offset change of the last step / dt: the wall's half-step velocity
-  double reach_m = 0;                ///< farthest point of the shape from the rotation centre (infinite for a tilting plane)
-  double swing_m = 0;                ///< farthest vibration excursion: widens the broad phase instead of forcing list rebuilds
-  bool endless = false;              ///< a plane that turns about an axis other than its normal: always a candidate
+  Vec3 step_velocity_m_s = Vec3::Zero();  ///< offset change of the last step / dt: the wall's half-step velocity
+  double reach_m = 0;                     ///< farthest point of the shape from the rotation centre (infinite for a tilting plane)
+  double swing_m = 0;                     ///< farthest vibration excursion: widens the broad phase instead of forcing list rebuilds
+  bool endless = false;                   ///< a plane that turns about an axis other than its normal: always a candidate
   bool is_mesh() const { return !triangles.empty(); }
   bool present(double time_s) const { return time_s >= wall.present.on_s && time_s < wall.present.off_s; }
 
-  Vec3 into_wall_frame(const Vec3& p) const;      ///< of the current pose
+  Vec3 into_wall_frame(const Vec3& p) const;  ///< of the current pose
   Vec3 direction_to_world(const Vec3& d) const;
   Vec3 point_to_world(const Vec3& p) const;
   /// Velocity of the wall's surface at a point on it; the belt's surface velocity counts only along the surface (normal given).

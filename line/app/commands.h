@@ -2,7 +2,8 @@
 #include "base/context.h"
 #include "line/app/options.h"
 namespace venato::line::app {
-/// One function per verb; each returns the exit code. \throws UsageError, ConfigError, WorkError, Interrupted (turned into messages and codes by main).
+/// One function per verb; each returns the exit code. \throws UsageError, ConfigError, WorkError, Interrupted (turned into messages and codes by
+/// main).
 int run_command(const Options& options, Context& context);
 int validate_command(const Options& options, Context& context);
 int describe_command(const Options& options);

@@ -19,8 +19,8 @@ int dem_command(const Options& o, Context& context) {
   const auto c = dem::load_case(o.input, overrides, &outcome);
   const auto cost = dem::estimate_cost(c, context.threads);
   char text[200];
-  std::snprintf(text, sizeof text, "%s: %.0f particles, %.0f steps, %.2e particle-steps, %.0f MiB, about %.0f s", c.name.c_str(), cost.particles, cost.steps, cost.particle_steps,
-                cost.memory_bytes / 1048576.0, cost.seconds);
+  std::snprintf(text, sizeof text, "%s: %.0f particles, %.0f steps, %.2e particle-steps, %.0f MiB, about %.0f s", c.name.c_str(), cost.particles,
+                cost.steps, cost.particle_steps, cost.memory_bytes / 1048576.0, cost.seconds);
   context.log.info(text);
   context.seed = c.seed;
   RunFolder folder(o.out);
@@ -36,8 +36,9 @@ int dem_command(const Options& o, Context& context) {
   write_text_atomically(folder.staging() / "case.json", outcome.resolved_json + "\n");
   folder.publish();
   context.store.drop_checkpoint(kKind, key);
-  std::snprintf(text, sizeof text, "%s: %.3g particle-steps in %.1f s, mass in %.6g kg  out %.6g kg  left %.6g kg  lost %.6g kg", c.name.c_str(), result.particle_steps, result.wall_clock_s,
-                result.mass_put_in_kg, result.mass_removed_kg, result.mass_left_kg, result.mass_lost_box_kg);
+  std::snprintf(text, sizeof text, "%s: %.3g particle-steps in %.1f s, mass in %.6g kg  out %.6g kg  left %.6g kg  lost %.6g kg", c.name.c_str(),
+                result.particle_steps, result.wall_clock_s, result.mass_put_in_kg, result.mass_removed_kg, result.mass_left_kg,
+                result.mass_lost_box_kg);
   context.log.info(text);
   return 0;
 }

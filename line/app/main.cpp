@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
   watch_stop_signals();
   try {
     const int code = dispatch(parsed.options);
-    return std::fflush(stdout) == 0 ? code : fail(kFailed, "cannot write to standard output");
+    const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout);
+    return written ? code : fail(kFailed, "cannot write to standard output");
   } catch (const UsageError& e) {
     return fail(kUsage, e.what());
   } catch (const Interrupted& e) {

@@ -9,13 +9,13 @@ struct Options {
   std::string command;
   std::filesystem::path input, out, vein_map, graphic;
   std::vector<std::string> overrides;
-  int threads = 0;                  ///< 0 = all cores this process may use
+  int threads = 0;  ///< 0 = all cores this process may use
   bool quiet = false, json_log = false, schema = false;
-  double vein_pitch_mm = 0, graphic_pitch_mm = 0;   ///< 0 = from the file
+  double vein_pitch_mm = 0, graphic_pitch_mm = 0;  ///< 0 = from the file
 };
 struct Parsed {
   Options options;
-  bool finished = false;            ///< help or version was printed, or the usage was wrong: return exit_code
+  bool finished = false;  ///< help or version was printed, or the usage was wrong: return exit_code
   int exit_code = 0;
 };
 Parsed parse(int argc, const char* const* argv);

@@ -9,7 +9,9 @@ namespace {
 constexpr int kUsage = 2;
 
 void add_common(CLI::App& sub, Options& o) {
-  sub.add_option("--threads", o.threads, "threads to use (default: all cores of this process); results do not depend on it")->check(CLI::Range(1, 1024))->type_name("N");
+  sub.add_option("--threads", o.threads, "threads to use (default: all cores of this process); results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   sub.add_flag("--quiet", o.quiet, "warnings and errors only");
   sub.add_flag("--json-log", o.json_log, "log and progress as one JSON object per line");
 }
@@ -27,13 +29,18 @@ Parsed parse(int argc, const char* const* argv) {
   CLI::App app{"Venato predicts where the veins of a full-body decorated ceramic slab end up and makes the inkjet print land on them.", "venato"};
   app.set_version_flag("--version", "venato " + version_string());
   app.require_subcommand(1);
-  app.footer("Examples:\n  venato validate configs/demo_slab.json\n  venato run configs/demo_slab.json -o out/demo\n  venato run configs/demo_slab.json -o out/fast --set /belt_speed_m_s=0.12\n"
-             "Exit codes: 0 done, 1 the work failed, 2 wrong usage or config, 130 stopped (run again to resume).\nFinished operators are kept in $VENATO_STORE (default ~/.cache/venato).");
+  app.footer(
+      "Examples:\n  venato validate configs/demo_slab.json\n  venato run configs/demo_slab.json -o out/demo\n  venato run configs/demo_slab.json -o "
+      "out/fast --set /belt_speed_m_s=0.12\n"
+      "Exit codes: 0 done, 1 the work failed, 2 wrong usage or config, 130 stopped (run again to resume).\nFinished operators are kept in "
+      "$VENATO_STORE (default ~/.cache/venato).");
 
   auto* run = app.add_subcommand("run", "the whole line: commands, operators, slab, vein map, registration, score, masks, report");
   run->add_option("CONFIG", o.input, "line config (format venato-line)")->required();
   add_out(*run, o), add_set(*run, o), add_common(*run, o);
-  run->footer("Example:\n  venato run configs/demo_slab.json -o out/demo --threads 2\nExit 1 when the registration does not succeed; the report is written all the same and says why.");
+  run->footer(
+      "Example:\n  venato run configs/demo_slab.json -o out/demo --threads 2\nExit 1 when the registration does not succeed; the report is written "
+      "all the same and says why.");
 
   auto* validate = app.add_subcommand("validate", "all mistakes of a config at once, then what a run would cost");
   validate->add_option("CONFIG", o.input, "line config")->required();
@@ -52,11 +59,16 @@ Parsed parse(int argc, const char* const* argv) {
   auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab");
   sync->add_option("--vein-map", o.vein_map, "vein map or picture of the slab (TIFF, PNG, JPEG)")->required()->type_name("V");
   sync->add_option("--graphic", o.graphic, "the inkjet graphic")->required()->type_name("G");
-  sync->add_option("--vein-pitch-mm", o.vein_pitch_mm, "pixel size of the vein map (default: dpi in the file)")->check(CLI::Range(0.001, 1000.0))->type_name("P");
-  sync->add_option("--graphic-pitch-mm", o.graphic_pitch_mm, "pixel size of the graphic (default: dpi in the file)")->check(CLI::Range(0.001, 1000.0))->type_name("P");
+  sync->add_option("--vein-pitch-mm", o.vein_pitch_mm, "pixel size of the vein map (default: dpi in the file)")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->type_name("P");
+  sync->add_option("--graphic-pitch-mm", o.graphic_pitch_mm, "pixel size of the graphic (default: dpi in the file)")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->type_name("P");
   add_out(*sync, o), add_common(*sync, o);
-  sync->footer("Example:\n  venato sync --vein-map out/demo/vein_map.tif --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
-               "Exit 1 when the pictures do not belong together.");
+  sync->footer(
+      "Example:\n  venato sync --vein-map out/demo/vein_map.tif --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
+      "Exit 1 when the pictures do not belong together.");
 
   auto* report = app.add_subcommand("report", "rebuilds report.html of a finished run");
   report->add_option("RUN", o.input, "run folder")->required();

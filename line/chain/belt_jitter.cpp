@@ -22,7 +22,9 @@ std::vector<std::vector<Share>> row_shares(const BedGrid& g, const JitterField& 
   std::vector<std::vector<Share>> shares(static_cast<std::size_t>(g.ny));
   for (int j = 0; j < g.ny; ++j) {
     const double low = edge[static_cast<std::size_t>(j)], high = edge[static_cast<std::size_t>(j) + 1];
-    if (!(high > low)) throw WorkError("belt jitter folds the bed at y = " + std::to_string(j * g.pitch_m) + " m; lower belt_jitter/amplitude_mm or raise correlation_mm");
+    if (!(high > low))
+      throw WorkError("belt jitter folds the bed at y = " + std::to_string(j * g.pitch_m) +
+                      " m; lower belt_jitter/amplitude_mm or raise correlation_mm");
     double left = 1;
     for (int k = static_cast<int>(std::floor(low)); k < high; ++k) {
       const double w = (k + 1 >= high) ? left : (std::min(high, k + 1.0) - std::max(low, double(k))) / (high - low);

@@ -58,13 +58,14 @@ LineCost estimate_line_cost(const LineConfig& c, const Store& store, int threads
 std::string cost_table(const LineConfig& c, const LineCost& cost) {
   const auto& b = c.basics;
   std::string out = line_of("%s is valid; %zu placeholder numbers in use", c.file.string().c_str(), c.placeholders.size());
-  out += line_of("slab  %g x %g x %g mm fired, %.1f kg/m2 of moist powder on the belt", b.fired_width_m * 1e3, b.fired_length_m * 1e3, b.fired_thickness_m * 1e3, b.bed_mass_kg_m2);
-  out += line_of("bed   %.0f x %.0f mm, %d x %d columns of %g mm, %d layers, about %.0f MiB", b.grid.nx * b.grid.pitch_m * 1e3, b.grid.ny * b.grid.pitch_m * 1e3, b.grid.nx, b.grid.ny,
-                 b.grid.pitch_m * 1e3, b.grid.nz, cost.bed_memory_bytes / 1048576.0);
+  out += line_of("slab  %g x %g x %g mm fired, %.1f kg/m2 of moist powder on the belt", b.fired_width_m * 1e3, b.fired_length_m * 1e3,
+                 b.fired_thickness_m * 1e3, b.bed_mass_kg_m2);
+  out += line_of("bed   %.0f x %.0f mm, %d x %d columns of %g mm, %d layers, about %.0f MiB", b.grid.nx * b.grid.pitch_m * 1e3,
+                 b.grid.ny * b.grid.pitch_m * 1e3, b.grid.nx, b.grid.ny, b.grid.pitch_m * 1e3, b.grid.nz, cost.bed_memory_bytes / 1048576.0);
   out += line_of("%-18s %10s %10s %15s %9s %9s  %s", "stage", "particles", "steps", "particle-steps", "memory", "time", "operator");
   for (const auto& s : cost.stages)
-    out += line_of("%-18s %10.0f %10.0f %15.2e %5.0f MiB %7.0f s  %s", s.name.c_str(), s.cost.particles, s.cost.steps, s.cost.particle_steps, s.cost.memory_bytes / 1048576.0, s.cost.seconds,
-                   s.in_store ? "in the store: no simulation" : "by simulation");
+    out += line_of("%-18s %10.0f %10.0f %15.2e %5.0f MiB %7.0f s  %s", s.name.c_str(), s.cost.particles, s.cost.steps, s.cost.particle_steps,
+                   s.cost.memory_bytes / 1048576.0, s.cost.seconds, s.in_store ? "in the store: no simulation" : "by simulation");
   out += line_of("simulation to do: about %.0f s", cost.dem_seconds);
   return out;
 }

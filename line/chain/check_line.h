@@ -15,8 +15,8 @@ struct StageCost {
 };
 struct LineCost {
   std::vector<StageCost> stages;
-  double dem_seconds = 0;          ///< of the stages that are not in the store
-  double bed_memory_bytes = 0;     ///< of the whole-slab part
+  double dem_seconds = 0;       ///< of the stages that are not in the store
+  double bed_memory_bytes = 0;  ///< of the whole-slab part
 };
 LineCost estimate_line_cost(const LineConfig& config, const Store& store, int threads);
 std::string cost_table(const LineConfig& config, const LineCost& cost);

@@ -47,13 +47,15 @@ FeedCommands probe_commands(const FeedCommands& commands, const std::string& vei
     const double plain = *std::max_element(h.duty.begin(), h.duty.end());  // over body only: the lead-in has no vein
     std::fill(h.duty.begin(), h.duty.end(), plain);
     if (h.ticks == reference->ticks && h.prongs == reference->prongs)
-      std::fill_n(h.duty.begin() + static_cast<std::ptrdiff_t>(tick) * h.prongs, h.prongs, std::max(0.0, plain - reference->full_rate_kg_m2 / h.full_rate_kg_m2));
+      std::fill_n(h.duty.begin() + static_cast<std::ptrdiff_t>(tick) * h.prongs, h.prongs,
+                  std::max(0.0, plain - reference->full_rate_kg_m2 / h.full_rate_kg_m2));
   }
   return probe;
 }
 }  // namespace
 
-std::vector<double> layer_shifts(const LineConfig& config, const LineBasics& basics, const std::vector<Operator>& operators, const FeedCommands& commands, Context& context) {
+std::vector<double> layer_shifts(const LineConfig& config, const LineBasics& basics, const std::vector<Operator>& operators,
+                                 const FeedCommands& commands, Context& context) {
   const std::string& vein = basics.powders[static_cast<std::size_t>(basics.vein_powder)].name;
   const auto probe = probe_commands(commands, vein);
   std::vector<std::string> powders;
@@ -103,7 +105,8 @@ ExactMap make_exact_map(const LineConfig& config, const Slab& slab, const Jitter
   return map;
 }
 
-graphics::Raster8 exact_mask_on_green(const graphics::RasterF& print_fraction, const ExactMap& map, int width, int height, double pitch_m, float threshold) {
+graphics::Raster8 exact_mask_on_green(const graphics::RasterF& print_fraction, const ExactMap& map, int width, int height, double pitch_m,
+                                      float threshold) {
   graphics::Raster8 mask(width, height, 1, pitch_m, std::uint8_t{0});
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {

@@ -4,7 +4,9 @@
 namespace venato::line {
 namespace {
 
-sync::FeedFile feed_file(const FeedHead& h) { return {h.name, h.powder, h.prongs, h.ticks, h.prong_pitch_m, h.tick_s, h.belt_speed_m_s, h.full_rate_kg_m2, h.duty}; }
+sync::FeedFile feed_file(const FeedHead& h) {
+  return {h.name, h.powder, h.prongs, h.ticks, h.prong_pitch_m, h.tick_s, h.belt_speed_m_s, h.full_rate_kg_m2, h.duty};
+}
 
 sync::PowderMask powder_mask(const graphics::VeinMap& map, int powder, double scale) {
   sync::PowderMask mask;
@@ -16,7 +18,8 @@ sync::PowderMask powder_mask(const graphics::VeinMap& map, int powder, double sc
 }
 }  // namespace
 
-void write_mask_files(const std::filesystem::path& folder, const LineConfig& c, const LineRun& run, const std::vector<LoadedLayer>& layers, Context& context) {
+void write_mask_files(const std::filesystem::path& folder, const LineConfig& c, const LineRun& run, const std::vector<LoadedLayer>& layers,
+                      Context& context) {
   const auto& registration = run.sync.registration;
   // The printer sees the slab after drying: everything given in the green frame shrinks with it.
   const double dried = 1 - c.basics.drying_shrinkage;

@@ -27,11 +27,10 @@ std::optional<Operator> from_store(const Store& store, const std::string& key, L
 }  // namespace
 
 std::string operator_key(const LineConfig& config, const ConfiguredStage& stage) {
-  const std::string inputs = "{\"basics\":" + operator_inputs_json(config.basics) + ",\"stage\":" + stage.inputs_json +
-                             ",\"files\":" + [&] {
-                               const auto files = file_hashes_json(stage.inputs_json, config.file.parent_path());
-                               return files.empty() ? std::string("{}") : files;
-                             }() + "}";
+  const std::string inputs = "{\"basics\":" + operator_inputs_json(config.basics) + ",\"stage\":" + stage.inputs_json + ",\"files\":" + [&] {
+    const auto files = file_hashes_json(stage.inputs_json, config.file.parent_path());
+    return files.empty() ? std::string("{}") : files;
+  }() + "}";
   return store_key(kKind, inputs, {}, std::string(stage.descriptor->name) + " " + std::string(stage.descriptor->code_version));
 }
 
@@ -48,7 +47,8 @@ StageOperator obtain_operator(const LineConfig& config, const ConfiguredStage& s
     std::filesystem::create_directories(folder, ec);
     if (ec) throw WorkError("cannot create the checkpoint folder " + folder.string() + ": " + ec.message());
     out.op = stage.stage.characterise(config.basics, folder, context);
-    const auto file = context.store.put(kKind, out.key, stage.descriptor->code_version, [&](const std::filesystem::path& tmp) { write_operator(tmp, out.op); });
+    const auto file =
+        context.store.put(kKind, out.key, stage.descriptor->code_version, [&](const std::filesystem::path& tmp) { write_operator(tmp, out.op); });
     std::filesystem::remove_all(folder, ec);
     // Read back what was stored: a first run and a run from the store then work on the same bytes.
     out.op = read_operator(file);

@@ -7,9 +7,9 @@ namespace venato::line {
 
 struct StageOperator {
   Operator op;
-  std::string key;        ///< content hash in the store
+  std::string key;  ///< content hash in the store
   bool cached = false;
-  double wall_s = 0;      ///< for run.json only, never stored with data
+  double wall_s = 0;  ///< for run.json only, never stored with data
 };
 std::string operator_key(const LineConfig& config, const ConfiguredStage& stage);
 /// \throws WorkError when the DEM fails; Interrupted with its checkpoints kept in the store.

@@ -14,8 +14,8 @@ graphics::Raster8 load_design(const LineConfig& config);
 struct LoadedLayer {
   std::string name;
   bool warp = true;
-  graphics::Raster8 picture;      ///< print frame, 3 channels sRGB, the trial placement applied
-  graphics::Graphic inks;         ///< separated
+  graphics::Raster8 picture;  ///< print frame, 3 channels sRGB, the trial placement applied
+  graphics::Graphic inks;     ///< separated
 };
 std::vector<LoadedLayer> load_graphic(const LineConfig& config);
 /// All layers (or those that warp only) multiplied: what the print looks like. Print frame, sRGB.

@@ -21,8 +21,8 @@ std::string stage_border_line(const StageRecord& r) {
   return text;
 }
 
-ChainResult apply_chain(const LineConfig& config, const LineBasics& basics, const std::vector<Operator>& operators, const FeedCommands& commands, const JitterField& jitter,
-                        const ApplyOptions& options, Context& context) {
+ChainResult apply_chain(const LineConfig& config, const LineBasics& basics, const std::vector<Operator>& operators, const FeedCommands& commands,
+                        const JitterField& jitter, const ApplyOptions& options, Context& context) {
   VENATO_EXPECTS(operators.size() == config.chain.size());
   ChainResult out;
   out.state.commands = commands;
@@ -42,7 +42,8 @@ ChainResult apply_chain(const LineConfig& config, const LineBasics& basics, cons
     // A stage whose operator carries no replicates contributes its best estimate.
     const int replicate = operators[s].replicates.empty() ? -1 : options.replicate;
     auto output = stage.stage.apply(operators[s], out.state, basics, context, replicate);
-    StageRecord record{stage.stage.name, output.mass_in_kg, output.mass_out_kg, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(output.kpi)};
+    StageRecord record{stage.stage.name, output.mass_in_kg, output.mass_out_kg,
+                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(output.kpi)};
     check_mass_book(record.name, record.mass_in_kg, record.mass_out_kg);
     out.state = std::move(output.state);
     if (options.log_stages) context.log.info(stage_border_line(record));

@@ -16,7 +16,8 @@ Json millimetres(double metres) { return number(metres * 1e3); }
 
 Json gates_json(const std::vector<sync::Gate>& gates) {
   Json out = Json::array();
-  for (const auto& g : gates) out.push_back({{"name", g.name}, {"value", number(g.value)}, {"limit", number(g.limit)}, {"passed", g.passed}, {"meaning", g.meaning}});
+  for (const auto& g : gates)
+    out.push_back({{"name", g.name}, {"value", number(g.value)}, {"limit", number(g.limit)}, {"passed", g.passed}, {"meaning", g.meaning}});
   return out;
 }
 
@@ -60,12 +61,20 @@ Json result_json(const LineConfig& c, const LineRun& run) {
   const auto size = green_size(b);
   return {{"stages", stages_json(run)},
           {"mass",
-           {{"feed_commands_kg", number(run.chain.commands_mass_kg)}, {"slab_strip_kg", number(run.chain.slab_mass_kg)}, {"bed_kg_m2", number(b.bed_mass_kg_m2)}}},
+           {{"feed_commands_kg", number(run.chain.commands_mass_kg)},
+            {"slab_strip_kg", number(run.chain.slab_mass_kg)},
+            {"bed_kg_m2", number(b.bed_mass_kg_m2)}}},
           {"slab",
-           {{"green_width_mm", millimetres(size.width_m)}, {"green_length_mm", millimetres(size.length_m)}, {"top_bottom_offset_mm", millimetres(run.top_bottom_offset_m)},
+           {{"green_width_mm", millimetres(size.width_m)},
+            {"green_length_mm", millimetres(size.length_m)},
+            {"top_bottom_offset_mm", millimetres(run.top_bottom_offset_m)},
             {"polish_depth_mm", millimetres(c.vein_map.polish_depth_m)}}},
           {"registration",
-           {{"success", r.success}, {"reason", r.reason}, {"confidence", number(r.confidence)}, {"internal_residual_mm", millimetres(r.internal_residual_m)}, {"gates", gates_json(r.gates)},
+           {{"success", r.success},
+            {"reason", r.reason},
+            {"confidence", number(r.confidence)},
+            {"internal_residual_mm", millimetres(r.internal_residual_m)},
+            {"gates", gates_json(r.gates)},
             {"against_simulation_mm",
              {{"before", {{"median", millimetres(run.sync.error_before.median_m)}, {"p95", millimetres(run.sync.error_before.p95_m)}}},
               {"after", {{"median", millimetres(run.sync.error_after.median_m)}, {"p95", millimetres(run.sync.error_after.p95_m)}}}}}}},
@@ -83,7 +92,8 @@ void write_score_json(const std::filesystem::path& file, const SyncResult& s) {
   report.before_definition = "the graphic printed as designed: its first corner on the slab's, unturned, sized for the dried slab";
   report.after_definition = "the graphic moved by the registration's print_from_green";
   report.best_reachable_definition =
-      "the graphic moved by the simulation's own displacement (press, cut, belt jitter, mean shift of the layer that is seen): what is left is blur and the simplification of the "
+      "the graphic moved by the simulation's own displacement (press, cut, belt jitter, mean shift of the layer that is seen): what is left is blur "
+      "and the simplification of the "
       "veins, which no registration can remove";
   write_text_atomically(file, sync::score_json_text(report, s.registration));
 }
@@ -98,8 +108,14 @@ void write_run_json(const std::filesystem::path& file, const LineConfig& c, cons
                  {"input", Json::parse(c.resolved_json)},
                  {"result", result_json(c, run)},
                  {"system",
-                  {{"code_version", version_string()}, {"seed", c.basics.seed}, {"config_file", c.file.string()}, {"config_sha256", sha256_hex(c.resolved_json)}, {"threads", context.threads},
-                   {"cpu", cpu_model_name()}, {"cores", available_cores()}, {"peak_memory_bytes", peak_memory_bytes()}}},
+                  {{"code_version", version_string()},
+                   {"seed", c.basics.seed},
+                   {"config_file", c.file.string()},
+                   {"config_sha256", sha256_hex(c.resolved_json)},
+                   {"threads", context.threads},
+                   {"cpu", cpu_model_name()},
+                   {"cores", available_cores()},
+                   {"peak_memory_bytes", peak_memory_bytes()}}},
                  {"timing", timing}};
   write_text_atomically(file, out.dump(2) + "\n");
 }

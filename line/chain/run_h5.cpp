@@ -7,8 +7,8 @@ namespace venato::line {
 namespace {
 using Dims = std::vector<std::uint64_t>;
 
-void raster(H5Writer& h5, const std::string& name, const graphics::RasterF& r, const std::string& units, const std::string& frame, const std::string& description,
-            const std::string& channels = "channel") {
+void raster(H5Writer& h5, const std::string& name, const graphics::RasterF& r, const std::string& units, const std::string& frame,
+            const std::string& description, const std::string& channels = "channel") {
   if (r.empty()) return;
   Dims dims{static_cast<std::uint64_t>(r.height), static_cast<std::uint64_t>(r.width)};
   if (r.channels > 1) dims.push_back(static_cast<std::uint64_t>(r.channels));
@@ -22,13 +22,16 @@ std::string slug(std::string text) {
   return text;
 }
 
-void numbers(H5Writer& h5, const std::string& name, const std::vector<double>& data, const H5Meta& meta) { h5.dataset(name, data, {data.size()}, meta); }
+void numbers(H5Writer& h5, const std::string& name, const std::vector<double>& data, const H5Meta& meta) {
+  h5.dataset(name, data, {data.size()}, meta);
+}
 
 void write_operator_group(H5Writer& h5, const std::string& stage, const StageOperator& s) {
   const auto& op = s.op;
   const std::string group = "/stages/" + stage;
   h5.dataset(group + "/kernel", op.weight,
-             {static_cast<std::uint64_t>(op.nz_in), static_cast<std::uint64_t>(op.nz_out), static_cast<std::uint64_t>(op.n_theta), static_cast<std::uint64_t>(op.n_eta)},
+             {static_cast<std::uint64_t>(op.nz_in), static_cast<std::uint64_t>(op.nz_out), static_cast<std::uint64_t>(op.n_theta),
+              static_cast<std::uint64_t>(op.n_eta)},
              {"1", "zeta_in,zeta_out,theta,eta", "belt", "share of an input layer's mass that arrives with this delay and shift"});
   h5.attribute(group + "/kernel", "theta0_s", op.theta0_s);
   h5.attribute(group + "/kernel", "dtheta_s", op.dtheta_s);
@@ -45,14 +48,18 @@ void write_operator_group(H5Writer& h5, const std::string& stage, const StageOpe
   }
   for (const auto& [curve, columns] : op.curves)
     for (const auto& [column, data] : columns)
-      if (!data.empty()) numbers(h5, group + "/curves/" + slug(curve) + "/" + slug(column), data, {"SI", "sample", "none", curve + ": " + column + ", in the unit its name ends in"});
+      if (!data.empty())
+        numbers(h5, group + "/curves/" + slug(curve) + "/" + slug(column), data,
+                {"SI", "sample", "none", curve + ": " + column + ", in the unit its name ends in"});
 }
 
 void write_residuals(H5Writer& h5, const std::string& name, const std::vector<sync::ResidualSample>& samples) {
   std::vector<double> data;
   for (const auto& s : samples) data.insert(data.end(), {s.x_m, s.y_m, s.signed_distance_m, s.matched ? 1.0 : 0.0});
   if (data.empty()) return;
-  h5.dataset(name, data, {samples.size(), 4}, {"m,m,m,1", "sample,(x;y;signed distance along the vein normal;matched)", "green", "centre-line residual of every sample of the print's veins"});
+  h5.dataset(name, data, {samples.size(), 4},
+             {"m,m,m,1", "sample,(x;y;signed distance along the vein normal;matched)", "green",
+              "centre-line residual of every sample of the print's veins"});
 }
 
 void write_transform(H5Writer& h5, const std::string& group, const sync::Transform& t, const std::string& what) {
@@ -81,7 +88,8 @@ void write_composition(H5Writer& h5, const Bed& bed, int body_powder) {
              {"1", "zeta,y,x", "belt", "share of vein powder in every mass layer, bottom first, over the whole strip"});
   h5.attribute("/slab/vein_fraction", "pitch_m", g.pitch_m);
   h5.attribute("/slab/vein_fraction", "lead_m", g.lead_m);
-  h5.dataset("/slab/areal_mass", bed.areal_mass(), {static_cast<std::uint64_t>(g.ny), static_cast<std::uint64_t>(g.nx)}, {"kg/m2", "y,x", "belt", "moist powder per belt area"});
+  h5.dataset("/slab/areal_mass", bed.areal_mass(), {static_cast<std::uint64_t>(g.ny), static_cast<std::uint64_t>(g.nx)},
+             {"kg/m2", "y,x", "belt", "moist powder per belt area"});
 }
 }  // namespace
 
@@ -94,7 +102,8 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& c, const 
   h5.strings("/plan/powders", run.plan.powders, {"1", "powder", "none", "names of the powders in channel order"});
   for (const auto& h : run.chain.state.commands.heads) {
     const std::string name = "/commands/" + h.name;
-    h5.dataset(name, h.duty, {static_cast<std::uint64_t>(h.ticks), static_cast<std::uint64_t>(h.prongs)}, {"1", "tick,prong", "belt", "duty of dosing head " + h.name + ", powder " + h.powder});
+    h5.dataset(name, h.duty, {static_cast<std::uint64_t>(h.ticks), static_cast<std::uint64_t>(h.prongs)},
+               {"1", "tick,prong", "belt", "duty of dosing head " + h.name + ", powder " + h.powder});
     h5.attribute(name, "prong_pitch_m", h.prong_pitch_m);
     h5.attribute(name, "tick_s", h.tick_s);
     h5.attribute(name, "belt_speed_m_s", h.belt_speed_m_s);
@@ -107,14 +116,17 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& c, const 
   raster(h5, "/slab/density", slab.density_kg_m3, "kg/m3", "green", "pressed bulk density, moist");
   raster(h5, "/slab/pressure", slab.pressure_pa, "Pa", "green", "peak pressure");
   raster(h5, "/slab/belt_from_green", slab.belt_from_green_m, "m", "green", "belt position of each point of the cut slab", "(x;y)");
-  numbers(h5, "/belt/layer_shift", run.layer_shift_m, {"m", "zeta", "belt", "mean displacement of vein powder along the belt per mass layer, without jitter; NaN: no vein powder there"});
+  numbers(h5, "/belt/layer_shift", run.layer_shift_m,
+          {"m", "zeta", "belt", "mean displacement of vein powder along the belt per mass layer, without jitter; NaN: no vein powder there"});
   std::vector<double> jitter;
   for (int j = 0; j < c.basics.grid.ny; ++j) jitter.push_back(run.jitter.displacement_m((j + 0.5) * c.basics.grid.pitch_m));
   numbers(h5, "/belt/jitter", jitter, {"m", "y", "belt", "displacement along the belt between dosing and press, one value per row of the bed"});
   raster(h5, "/vein_map/fraction", run.vein_map.fraction, "1", "green", "share of each powder on the face or at the polishing depth", "powder");
-  raster(h5, "/vein_map/std_error", run.vein_map.std_error, "1", "green", "standard error of the vein share, from bootstrap replicates of the operators");
+  raster(h5, "/vein_map/std_error", run.vein_map.std_error, "1", "green",
+         "standard error of the vein share, from bootstrap replicates of the operators");
   raster(h5, "/registration/print_vein_fraction", run.sync.print_fraction, "1", "print", "vein share of the graphic, as found by the plan's rule");
-  write_transform(h5, "/registration/print_from_green", run.sync.registration.print_from_green, run.sync.registration.success ? "registration" : "rejected registration, not used");
+  write_transform(h5, "/registration/print_from_green", run.sync.registration.print_from_green,
+                  run.sync.registration.success ? "registration" : "rejected registration, not used");
   write_transform(h5, "/registration/nominal", run.sync.nominal, "file as designed");
   raster(h5, "/registration/sigma", run.sync.registration.sigma_m, "m", "green", "predicted error of the registration");
   write_residuals(h5, "/residuals/before", run.sync.residuals_before);

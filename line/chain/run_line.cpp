@@ -12,7 +12,8 @@
 #include "line/report/report.h"
 namespace venato::line {
 namespace {
-// Output files of a run are some hundred bytes per pixel of the print in the worst case (no compression gain): refuse to start on a disk that cannot hold them.
+// Output files of a run are some hundred bytes per pixel of the print in the worst case (no compression gain): refuse to start on a disk that cannot
+// hold them.
 constexpr double kPrintBytesPerInk = 1.2;
 
 class Clock {
@@ -60,21 +61,26 @@ void obtain_all(const LineConfig& c, LineRun& run, Context& context) {
     }
     run.operators.push_back(std::move(op));
   }
-  if (cached > 0) context.log.info("operators came from the store: " + std::to_string(cached) + " of " + std::to_string(c.chain.size()) + " (" + context.store.root().string() + ")");
+  if (cached > 0)
+    context.log.info("operators came from the store: " + std::to_string(cached) + " of " + std::to_string(c.chain.size()) + " (" +
+                     context.store.root().string() + ")");
 }
 
-void check_slab_mass(const ChainResult& chain) { check_mass_book("the whole line (feed commands against slab)", chain.commands_mass_kg, chain.slab_mass_kg); }
+void check_slab_mass(const ChainResult& chain) {
+  check_mass_book("the whole line (feed commands against slab)", chain.commands_mass_kg, chain.slab_mass_kg);
+}
 }  // namespace
 
 std::string run_summary(const LineRun& run) {
   const auto line = [](const char* name, const sync::Metrics& m) {
     char text[200];
-    std::snprintf(text, sizeof text, "%-15s centre line median %6.2f mm  P95 %6.2f mm  matched %5.1f %%  F1@2mm %.3f\n", name, m.centreline_median_m * 1e3, m.centreline_p95_m * 1e3,
-                  m.matched_length * 100, m.boundary_f1_2mm);
+    std::snprintf(text, sizeof text, "%-15s centre line median %6.2f mm  P95 %6.2f mm  matched %5.1f %%  F1@2mm %.3f\n", name,
+                  m.centreline_median_m * 1e3, m.centreline_p95_m * 1e3, m.matched_length * 100, m.boundary_f1_2mm);
     return std::string(text);
   };
   const auto& s = run.sync;
-  return line("before", s.before) + (s.after ? line("after", *s.after) : std::string("after           none: registration failed\n")) + line("best reachable", s.best);
+  return line("before", s.before) + (s.after ? line("after", *s.after) : std::string("after           none: registration failed\n")) +
+         line("best reachable", s.best);
 }
 
 RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, Context& context) {
@@ -113,7 +119,8 @@ RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, 
   const double thickness = sample_bilinear(run.slab().thickness_m, green_size(config.basics).width_m / 2, green_size(config.basics).length_m / 2, 0);
   const auto exact = make_exact_map(config, run.slab(), run.jitter, run.layer_shift_m, zeta_at_depth(config.vein_map.polish_depth_m, thickness));
   run.sync = synchronise(config, run.vein_map, layers, exact, context);
-  if (!run.sync.registration.success) run.warnings.push_back("registration failed: " + run.sync.registration.reason + "; the print files are as designed, not synchronised");
+  if (!run.sync.registration.success)
+    run.warnings.push_back("registration failed: " + run.sync.registration.reason + "; the print files are as designed, not synchronised");
   clock.lap("registration");
 
   const auto& staging = folder.staging();

@@ -7,13 +7,13 @@
 namespace venato::line {
 
 struct Figure {
-  std::string file;       ///< relative to the run folder
-  std::string section;    ///< of the report: "asked" | "slab" | "sync" | stage name
+  std::string file;     ///< relative to the run folder
+  std::string section;  ///< of the report: "asked" | "slab" | "sync" | stage name
   std::string title, caption;
 };
 /// Everything one run made. Big: lives once, in run_line().
 struct LineRun {
-  graphics::VeinPlan plan;                          ///< design frame
+  graphics::VeinPlan plan;  ///< design frame
   std::vector<StageOperator> operators;
   ChainResult chain;
   JitterField jitter;
@@ -22,18 +22,18 @@ struct LineRun {
   SyncResult sync;
   double top_bottom_offset_m = kUnset;
   std::vector<std::string> warnings;
-  std::vector<std::pair<std::string, double>> timing_s;   ///< phase, seconds: run.json only
+  std::vector<std::pair<std::string, double>> timing_s;  ///< phase, seconds: run.json only
   std::vector<Figure> figures;
   const Slab& slab() const { return *chain.state.slab; }
 };
 
 struct RunOutcome {
   bool registered = false;
-  std::string reason;                               ///< why not
-  std::string summary;                              ///< a few lines for the terminal
+  std::string reason;   ///< why not
+  std::string summary;  ///< a few lines for the terminal
 };
-/// The whole line into the folder OUT (run.json, run.h5, score.json, report.html, figures, vein_map.tif, masks). Nothing stands under its final name before all of it is
-/// complete. \throws ConfigError, UsageError (OUT), WorkError, Interrupted.
+/// The whole line into the folder OUT (run.json, run.h5, score.json, report.html, figures, vein_map.tif, masks). Nothing stands under its final name
+/// before all of it is complete. \throws ConfigError, UsageError (OUT), WorkError, Interrupted.
 RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, Context& context);
 
 // ---- parts of the run folder -------------------------------------------------------------------------------------------------
@@ -41,8 +41,10 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& config, c
 void write_run_json(const std::filesystem::path& file, const LineConfig& config, const LineRun& run, const Context& context);
 void write_score_json(const std::filesystem::path& file, const SyncResult& sync);
 void write_vein_map(const std::filesystem::path& file, const graphics::VeinMap& map, int threads);
-void write_mask_files(const std::filesystem::path& folder, const LineConfig& config, const LineRun& run, const std::vector<LoadedLayer>& layers, Context& context);
+void write_mask_files(const std::filesystem::path& folder, const LineConfig& config, const LineRun& run, const std::vector<LoadedLayer>& layers,
+                      Context& context);
 /// Draws figures/ and lists them in run.figures.
-void write_figures(const std::filesystem::path& run_folder, const LineConfig& config, LineRun& run, const graphics::Raster8& design, const graphics::Raster8& print_srgb);
+void write_figures(const std::filesystem::path& run_folder, const LineConfig& config, LineRun& run, const graphics::Raster8& design,
+                   const graphics::Raster8& print_srgb);
 std::string run_summary(const LineRun& run);
 }  // namespace venato::line

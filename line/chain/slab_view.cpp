@@ -20,7 +20,8 @@ graphics::VeinMap look_at_slab(const LineBasics& b, const Slab& slab, double dep
   return map;
 }
 
-graphics::RasterF vein_standard_error(const LineConfig& config, const std::vector<Operator>& operators, const FeedCommands& commands, const JitterField& jitter, Context& context) {
+graphics::RasterF vein_standard_error(const LineConfig& config, const std::vector<Operator>& operators, const FeedCommands& commands,
+                                      const JitterField& jitter, Context& context) {
   int replicates = config.basics.bootstrap_replicates;
   bool any = false;
   for (const auto& op : operators)
@@ -52,13 +53,15 @@ graphics::RasterF resample_to(const graphics::RasterF& raster, int width, int he
   graphics::RasterF out(width, height, raster.channels, pitch_m);
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i)
-      for (int c = 0; c < raster.channels; ++c) out.at(i, j, c) = static_cast<float>(sample_bilinear(raster, (i + 0.5) * pitch_m, (j + 0.5) * pitch_m, c));
+      for (int c = 0; c < raster.channels; ++c)
+        out.at(i, j, c) = static_cast<float>(sample_bilinear(raster, (i + 0.5) * pitch_m, (j + 0.5) * pitch_m, c));
   return out;
 }
 
 double top_bottom_offset(const LineBasics& b, const Slab& slab, int threads) {
   const double thickness = static_cast<double>(*std::min_element(slab.thickness_m.data.begin(), slab.thickness_m.data.end()));
-  const auto top = graphics::vein_fraction(look_at_slab(b, slab, 0, threads)), bottom = graphics::vein_fraction(look_at_slab(b, slab, thickness, threads));
+  const auto top = graphics::vein_fraction(look_at_slab(b, slab, 0, threads)),
+             bottom = graphics::vein_fraction(look_at_slab(b, slab, thickness, threads));
   const double pitch_m = top.pitch_m;
   const int reach = static_cast<int>(0.05 / pitch_m);  // offsets up to 50 mm: more than a 40 deg vein edge runs in the thickest slab
   double best = -1, best_shift = kUnset;

@@ -31,7 +31,8 @@ sync::Transform on_dried_slab(const sync::Transform& t, double scale) {
   return out;
 }
 
-SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, const std::vector<LoadedLayer>& layers, const ExactMap& exact, Context& context) {
+SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, const std::vector<LoadedLayer>& layers, const ExactMap& exact,
+                       Context& context) {
   SyncResult out;
   const float threshold = static_cast<float>(c.sync.threshold);
   const auto vein = graphics::vein_fraction(vein_map);

@@ -9,15 +9,16 @@ namespace venato::line {
 
 struct SyncResult {
   sync::Registration registration;
-  sync::Transform nominal;                       ///< print_from_green of the file as designed: first corners together, drying only
-  graphics::RasterF print_fraction;              ///< vein fraction of the graphic, print frame
-  graphics::Raster8 body, print_before, print_after, print_best;   ///< vein masks, green frame, 0/255
+  sync::Transform nominal;                                        ///< print_from_green of the file as designed: first corners together, drying only
+  graphics::RasterF print_fraction;                               ///< vein fraction of the graphic, print frame
+  graphics::Raster8 body, print_before, print_after, print_best;  ///< vein masks, green frame, 0/255
   sync::Metrics before, best;
-  std::optional<sync::Metrics> after;            ///< none when the registration failed: then the print stays as designed
+  std::optional<sync::Metrics> after;  ///< none when the registration failed: then the print stays as designed
   std::vector<sync::ResidualSample> residuals_before, residuals_after, residuals_best;
-  MapError error_before{}, error_after{};        ///< against the simulation's own displacement, over the body's vein pixels
+  MapError error_before{}, error_after{};  ///< against the simulation's own displacement, over the body's vein pixels
 };
-SyncResult synchronise(const LineConfig& config, const graphics::VeinMap& vein_map, const std::vector<LoadedLayer>& layers, const ExactMap& exact, Context& context);
+SyncResult synchronise(const LineConfig& config, const graphics::VeinMap& vein_map, const std::vector<LoadedLayer>& layers, const ExactMap& exact,
+                       Context& context);
 
 /// The same map for a slab seen `scale` times smaller (dried): print_from_dried(p) = print_from_green(p / scale).
 sync::Transform on_dried_slab(const sync::Transform& print_from_green, double scale);

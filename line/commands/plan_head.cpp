@@ -11,7 +11,8 @@ constexpr double kWholeTolerance = 1e-6;  // relative: what decimal pitches in a
 
 double strip_length(const LineBasics& b) { return b.grid.ny * b.grid.pitch_m; }
 
-/// Weights of source pixels [0, n) for an interval [low, high) given in pixels. Up to `bleed` pixels outside the edge pixel counts, beyond that nothing does.
+/// Weights of source pixels [0, n) for an interval [low, high) given in pixels. Up to `bleed` pixels outside the edge pixel counts, beyond that
+/// nothing does.
 struct Weight {
   int index;
   double weight;
@@ -42,8 +43,10 @@ HeadLayout strip_layout(const LineBasics& b, std::string name, std::string powde
     throw UsageError("dosing head '" + name + "': the bed, " + std::to_string(width * 1e3) + " mm wide, is not a whole number of prongs of " +
                      std::to_string(prong_pitch_m * 1e3) + " mm; set grid/width_module_mm to a multiple of the prong pitch");
   if (std::abs(ticks - std::round(ticks)) > kWholeTolerance * ticks)
-    throw UsageError("dosing head '" + name + "': the strip is not a whole number of ticks; the nearest tick that fits is " + std::to_string(fit_tick(b, tick_s) * 1e3) + " ms");
-  return {std::move(name), std::move(powder), static_cast<int>(std::lround(prongs)), static_cast<int>(std::lround(ticks)), prong_pitch_m, tick_s, full_rate_kg_m2};
+    throw UsageError("dosing head '" + name + "': the strip is not a whole number of ticks; the nearest tick that fits is " +
+                     std::to_string(fit_tick(b, tick_s) * 1e3) + " ms");
+  return {std::move(name), std::move(powder), static_cast<int>(std::lround(prongs)), static_cast<int>(std::lround(ticks)), prong_pitch_m,
+          tick_s,          full_rate_kg_m2};
 }
 
 std::vector<double> cell_fractions(const graphics::VeinPlan& plan, int channel, const LineBasics& b, const HeadLayout& layout) {
@@ -89,9 +92,12 @@ FeedHead plan_head(const graphics::VeinPlan& plan, int channel, const LineBasics
   head.full_rate_kg_m2 = layout.full_rate_kg_m2;
   head.duty = cell_fractions(plan, channel, b, layout);
   if (rules.mode == DutyMode::proportional) return head;
-  const auto at = [&](int k, int p) -> double& { return head.duty[static_cast<std::size_t>(k) * static_cast<std::size_t>(head.prongs) + static_cast<std::size_t>(p)]; };
+  const auto at = [&](int k, int p) -> double& {
+    return head.duty[static_cast<std::size_t>(k) * static_cast<std::size_t>(head.prongs) + static_cast<std::size_t>(p)];
+  };
   // A tick shorter than the minimum by rounding still counts as long enough.
-  const int min_on = static_cast<int>(std::ceil(rules.min_on_s / layout.tick_s - kWholeTolerance)), min_off = static_cast<int>(std::ceil(rules.min_off_s / layout.tick_s - kWholeTolerance));
+  const int min_on = static_cast<int>(std::ceil(rules.min_on_s / layout.tick_s - kWholeTolerance)),
+            min_off = static_cast<int>(std::ceil(rules.min_off_s / layout.tick_s - kWholeTolerance));
   std::vector<double> column(static_cast<std::size_t>(head.ticks));
   for (int p = 0; p < head.prongs; ++p) {
     for (int k = 0; k < head.ticks; ++k) column[static_cast<std::size_t>(k)] = at(k, p) > rules.on_threshold ? 1.0 : 0.0;
@@ -109,15 +115,16 @@ FeedHead complement_head(const std::vector<FeedHead>& heads, std::string name, s
   out.full_rate_kg_m2 = full_rate_kg_m2;
   for (const auto& h : heads)
     if (h.prongs != out.prongs || h.ticks != out.ticks || h.prong_pitch_m != out.prong_pitch_m || h.tick_s != out.tick_s)
-      throw UsageError("dosing heads '" + heads.front().name + "' and '" + h.name + "' have different prongs or ticks; a body head can complement only heads that share them");
+      throw UsageError("dosing heads '" + heads.front().name + "' and '" + h.name +
+                       "' have different prongs or ticks; a body head can complement only heads that share them");
   for (std::size_t c = 0; c < out.duty.size(); ++c) {
     double laid = 0;
     for (const auto& h : heads) laid += h.duty[c] * h.full_rate_kg_m2;
     const double duty = 1 - laid / full_rate_kg_m2;
     if (duty < -1e-9)
       throw UsageError("dosing head '" + out.name + "': prong " + std::to_string(c % static_cast<std::size_t>(out.prongs)) + ", tick " +
-                       std::to_string(c / static_cast<std::size_t>(out.prongs)) + " already gets " + std::to_string(laid) + " kg/m2, more than the bed's " +
-                       std::to_string(full_rate_kg_m2) + " kg/m2; lower the vein share");
+                       std::to_string(c / static_cast<std::size_t>(out.prongs)) + " already gets " + std::to_string(laid) +
+                       " kg/m2, more than the bed's " + std::to_string(full_rate_kg_m2) + " kg/m2; lower the vein share");
     out.duty[c] = std::max(0.0, duty);
   }
   return out;

@@ -11,10 +11,11 @@ struct HeadLayout {
   std::string name, powder;
   int prongs = 0, ticks = 0;
   double prong_pitch_m = 0, tick_s = 0;
-  double full_rate_kg_m2 = 0;        ///< areal mass laid at duty 1
+  double full_rate_kg_m2 = 0;  ///< areal mass laid at duty 1
 };
 /// Layout that covers the strip of `basics`. Prongs: bed width / pitch, ticks: strip length / (belt speed * tick).
-/// \throws UsageError when the bed is not a whole number of prongs, or the strip not a whole number of ticks within 1e-6 (names the nearest values that fit).
+/// \throws UsageError when the bed is not a whole number of prongs, or the strip not a whole number of ticks within 1e-6 (names the nearest values
+/// that fit).
 HeadLayout strip_layout(const LineBasics& basics, std::string name, std::string powder, double prong_pitch_m, double tick_s, double full_rate_kg_m2);
 /// The tick not longer than `tick_s` that divides the strip into whole ticks [s].
 double fit_tick(const LineBasics& basics, double tick_s);
@@ -22,14 +23,14 @@ double fit_tick(const LineBasics& basics, double tick_s);
 enum class DutyMode { on_off, proportional };
 struct CommandRules {
   DutyMode mode = DutyMode::on_off;
-  double on_threshold = 0.5;         ///< on_off: on where the planned fraction in the cell is above this
-  double min_on_s = 0, min_off_s = 0;///< shortest on and off phases a prong can follow; shorter gaps are closed first, then shorter pulses are lengthened
+  double on_threshold = 0.5;  ///< on_off: on where the planned fraction in the cell is above this
+  double min_on_s = 0,
+         min_off_s = 0;  ///< shortest on and off phases a prong can follow; shorter gaps are closed first, then shorter pulses are lengthened
 };
 
 /// Average of the plan over each prong x tick cell (belt frame, exact area weights), then on/off. The plan covers the design only: its
-/// outermost pixels are continued over the trim (across) and as far beyond both ends (along), so that a slab cut a little off still has its veins; the rest of
-/// lead-in and lead-out is body.
-/// \param channel powder of the plan that this head lays.
+/// outermost pixels are continued over the trim (across) and as far beyond both ends (along), so that a slab cut a little off still has its veins;
+/// the rest of lead-in and lead-out is body. \param channel powder of the plan that this head lays.
 FeedHead plan_head(const graphics::VeinPlan& plan, int channel, const LineBasics& basics, const HeadLayout& layout, const CommandRules& rules);
 
 /// The head that fills what `heads` leave: duty = 1 - sum of their duties x rates / its own rate, so that every cell of the strip gets the same mass.
@@ -38,6 +39,7 @@ FeedHead complement_head(const std::vector<FeedHead>& heads, std::string name, s
 
 /// Planned fraction of `channel` averaged over every cell: [tick][prong]. What plan_head thresholds.
 std::vector<double> cell_fractions(const graphics::VeinPlan& plan, int channel, const LineBasics& basics, const HeadLayout& layout);
-/// Closes off phases shorter than `min_off` ticks, then lengthens on phases shorter than `min_on` ticks around their middle. In place, cyclic strip; column = one prong's on/off.
+/// Closes off phases shorter than `min_off` ticks, then lengthens on phases shorter than `min_on` ticks around their middle. In place, cyclic strip;
+/// column = one prong's on/off.
 void enforce_min_times(std::vector<double>& column, int min_on_ticks, int min_off_ticks);
 }  // namespace venato::line

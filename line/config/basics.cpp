@@ -6,8 +6,9 @@ namespace venato::line {
 namespace {
 
 /// Moist powder per belt area that makes the fired slab [kg/m2].
-/// fired areal mass = thickness * fired density; dry powder = that / (1 - loss on ignition); moist = dry * (1 + moisture, dry basis). The fired area is smaller than
-/// the belt area by belt_from_design squared. Check (domain notes 1.2): 12 mm at 2320 kg/m3 needs 25.2 kg/m2 of dry powder per green area.
+/// fired areal mass = thickness * fired density; dry powder = that / (1 - loss on ignition); moist = dry * (1 + moisture, dry basis). The fired area
+/// is smaller than the belt area by belt_from_design squared. Check (domain notes 1.2): 12 mm at 2320 kg/m3 needs 25.2 kg/m2 of dry powder per green
+/// area.
 double bed_mass(const LineBasics& b) {
   const double fired = b.fired_thickness_m * b.fired_density_kg_m3;
   const double moist = fired / (1 - b.loss_on_ignition) * (1 + b.moisture);
@@ -40,6 +41,8 @@ void derive_basics(LineConfig& c) {
   b.bed_mass_kg_m2 = bed_mass(b);
   b.trim_m = round_up(c.grid_trim_m, c.width_module_m) * c.width_module_m;
   b.grid = make_grid(b, c.width_module_m, c.grid_pitch_m, c.grid_lead_m, b.grid.nz);
+  // Walls need some density to be a valid material; nothing is computed from it.
+  for (auto& m : b.materials.materials) m.density_kg_m3 = b.powders.front().granule_density_kg_m3;
   b.material_inputs_json = material_inputs_json(b);
 }
 

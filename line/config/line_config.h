@@ -17,25 +17,26 @@ inline constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 /// Picture the dosing heads follow. Lengths at fired size.
 struct DesignConfig {
   std::filesystem::path image;
-  double pitch_m = kUnset;                          ///< size of one pixel on the fired slab
-  double origin_x_m = 0, origin_y_m = 0;            ///< first corner of the slab inside the picture
+  double pitch_m = kUnset;                ///< size of one pixel on the fired slab
+  double origin_x_m = 0, origin_y_m = 0;  ///< first corner of the slab inside the picture
   graphics::VeinPlanConfig plan;
 };
 
-/// One picture of the inkjet graphic. Layers are multiplied in order; a layer with warp = false keeps its place on the print when the rest is moved onto the veins.
+/// One picture of the inkjet graphic. Layers are multiplied in order; a layer with warp = false keeps its place on the print when the rest is moved
+/// onto the veins.
 struct GraphicLayer {
   std::filesystem::path image;
   bool warp = true;
 };
 struct GraphicConfig {
-  std::vector<GraphicLayer> layers;                 ///< at least one; a plain "image" is one warped layer
-  bool single_image = false;                        ///< given as `image`, not as `layers`
-  double pitch_m = kUnset;                          ///< fired size of one pixel
+  std::vector<GraphicLayer> layers;  ///< at least one; a plain "image" is one warped layer
+  bool single_image = false;         ///< given as `image`, not as `layers`
+  double pitch_m = kUnset;           ///< fired size of one pixel
   double origin_x_m = 0, origin_y_m = 0;
-  std::vector<graphics::Ink> inks;                  ///< in the printer's order
+  std::vector<graphics::Ink> inks;  ///< in the printer's order
   Rgb8 body_colour{};
-  double print_dpi = kUnset;                        ///< of masks/print.tif
-  double total_ink_limit = 2.4;                     ///< sum of ink fractions
+  double print_dpi = kUnset;     ///< of masks/print.tif
+  double total_ink_limit = 2.4;  ///< sum of ink fractions
   /// A known extra move of the graphic on the print, for trials: content lies at rotate(p - centre) + centre + (dx, dy), print frame.
   double placement_dx_m = 0, placement_dy_m = 0, placement_rotation_rad = 0;
 };
@@ -45,13 +46,13 @@ struct BeltJitter {
   double amplitude_m = 0, correlation_m = 0.4;
 };
 struct VeinMapConfig {
-  double polish_depth_m = 0;                        ///< below the pressed face
-  double coarse_pitch_m = 0.005;                    ///< of the bed in the bootstrap replicates
+  double polish_depth_m = 0;      ///< below the pressed face
+  double coarse_pitch_m = 0.005;  ///< of the bed in the bootstrap replicates
 };
 struct SyncConfig {
   sync::RegistrationConfig registration;
   sync::ScoreConfig score;
-  double threshold = 0.5;                           ///< a pixel belongs to a vein when its vein fraction is above
+  double threshold = 0.5;  ///< a pixel belongs to a vein when its vein fraction is above
 };
 struct MasksConfig {
   double preview_pitch_m = 0.001;
@@ -61,8 +62,8 @@ struct MasksConfig {
 struct ConfiguredStage {
   const StageDescriptor* descriptor = nullptr;
   Stage stage;
-  std::string pointer;                              ///< "/chain/2"
-  std::string inputs_json;                          ///< canonical subtree of this stage
+  std::string pointer;      ///< "/chain/2"
+  std::string inputs_json;  ///< canonical subtree of this stage
 };
 
 struct LineConfig {
@@ -73,7 +74,7 @@ struct LineConfig {
   DesignConfig design;
   GraphicConfig graphic;
   std::vector<ConfiguredStage> chain;
-  std::size_t chain_entries = 0;                    ///< in the file; more than chain.size() when a stage is unknown
+  std::size_t chain_entries = 0;  ///< in the file; more than chain.size() when a stage is unknown
   BeltJitter belt_jitter;
   VeinMapConfig vein_map;
   SyncConfig sync;
@@ -84,7 +85,7 @@ struct LineConfig {
 
 /// Declares and reads every key of a line config. `stages`: what chain entries may be.
 void read_line_config(ObjectReader& r, LineConfig& config, const std::vector<StageDescriptor>& stages);
-ReadRoot line_config_root(const std::vector<StageDescriptor>& stages);   ///< for describe-config and the schema
+ReadRoot line_config_root(const std::vector<StageDescriptor>& stages);  ///< for describe-config and the schema
 
 /// Reads, checks everything that can be checked without pictures (ranges, cross-field, order of the chain) and derives basics.
 /// \throws UsageError (file cannot be read), ConfigError (all mistakes at once).

@@ -21,17 +21,24 @@ void collect_files(const Json& node, const std::filesystem::path& folder, Json& 
 std::string material_inputs_json(const LineBasics& b) {
   Json powders = Json::array(), materials = Json::array(), pairs = Json::array();
   for (const auto& p : b.powders)
-    powders.push_back({{"scale_m", p.psd.scale_m}, {"shape", p.psd.shape}, {"lower_cut_m", p.psd.lower_cut_m}, {"upper_cut_m", p.psd.upper_cut_m},
-                       {"granule_density_kg_m3", p.granule_density_kg_m3}, {"poured_bulk_density_kg_m3", p.poured_bulk_density_kg_m3}});
+    powders.push_back({{"scale_m", p.psd.scale_m},
+                       {"shape", p.psd.shape},
+                       {"lower_cut_m", p.psd.lower_cut_m},
+                       {"upper_cut_m", p.psd.upper_cut_m},
+                       {"granule_density_kg_m3", p.granule_density_kg_m3},
+                       {"poured_bulk_density_kg_m3", p.poured_bulk_density_kg_m3}});
   for (const auto& m : b.materials.materials) materials.push_back({{"young_modulus_pa", m.young_modulus_pa}, {"poisson_ratio", m.poisson_ratio}});
   for (const auto& p : b.materials.pairs)
-    pairs.push_back({{"restitution", p.restitution}, {"sliding_friction", p.sliding_friction}, {"rolling_friction", p.rolling_friction},
+    pairs.push_back({{"restitution", p.restitution},
+                     {"sliding_friction", p.sliding_friction},
+                     {"rolling_friction", p.rolling_friction},
                      {"rolling_damping_ratio", p.rolling_damping_ratio}});
   return Json{{"powders", powders}, {"body", b.body_powder}, {"vein", b.vein_powder}, {"materials", materials}, {"pairs", pairs}}.dump();
 }
 
 std::string operator_inputs_json(const LineBasics& b) {
-  // Names, colours and the size of the slab are left out on purpose: a slice of the line knows nothing of them, so a larger slab reuses the operators.
+  // Names, colours and the size of the slab are left out on purpose: a slice of the line knows nothing of them, so a larger slab reuses the
+  // operators.
   return Json{{"materials", Json::parse(b.material_inputs_json)},
               {"belt_speed_m_s", b.belt_speed_m_s},
               {"bed_mass_kg_m2", b.bed_mass_kg_m2},

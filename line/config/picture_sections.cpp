@@ -6,15 +6,20 @@ void read_design(ObjectReader& r, DesignConfig& d) {
   r.number("pitch_mm", d.pitch_m, {0.02, 20, "mm"}, {"size of one pixel on the fired slab"});
   r.number("origin_x_mm", d.origin_x_m, {0, 10000, "mm"}, {"first corner of the slab inside the picture", 0.0});
   r.number("origin_y_mm", d.origin_y_m, {0, 10000, "mm"}, {"same, along the belt", 0.0});
-  r.object("plan", "how the picture becomes a plan of powders", [&](ObjectReader& o) {
-    auto& p = d.plan;
-    o.number("background_window_mm", p.background_window_m, {5, 1000, "mm"}, {"local background lightness is taken over this window", 120.0});
-    o.number("darkness_threshold", p.darkness_threshold, {0.01, 0.9, "1"}, {"vein where L*/100 is darker than the local background by more than this", 0.10});
-    o.choice("tone", p.tone, {{"darker", graphics::VeinTone::darker}, {"lighter", graphics::VeinTone::lighter}}, {"veins are darker or lighter than the body", "darker"});
-    o.number("min_width_mm", p.min_width_m, {0, 100, "mm"}, {"body veins are widened to this: 1.5 to 2 prong pitches", 8.0});
-    o.number("min_area_mm2", p.min_area_m2, {0, 1e6, "mm2"}, {"smaller specks are left to the printer", 400.0});
-    o.number("smoothing_mm", p.smoothing_m, {0, 50, "mm"}, {"of the vein outline", 2.0});
-  }, false);
+  r.object(
+      "plan", "how the picture becomes a plan of powders",
+      [&](ObjectReader& o) {
+        auto& p = d.plan;
+        o.number("background_window_mm", p.background_window_m, {5, 1000, "mm"}, {"local background lightness is taken over this window", 120.0});
+        o.number("darkness_threshold", p.darkness_threshold, {0.01, 0.9, "1"},
+                 {"vein where L*/100 is darker than the local background by more than this", 0.10});
+        o.choice("tone", p.tone, {{"darker", graphics::VeinTone::darker}, {"lighter", graphics::VeinTone::lighter}},
+                 {"veins are darker or lighter than the body", "darker"});
+        o.number("min_width_mm", p.min_width_m, {0, 100, "mm"}, {"body veins are widened to this: 1.5 to 2 prong pitches", 8.0});
+        o.number("min_area_mm2", p.min_area_m2, {0, 1e6, "mm2"}, {"smaller specks are left to the printer", 400.0});
+        o.number("smoothing_mm", p.smoothing_m, {0, 50, "mm"}, {"of the vein outline", 2.0});
+      },
+      false);
 }
 
 void read_graphic(ObjectReader& r, GraphicConfig& g) {
@@ -30,7 +35,8 @@ void read_graphic(ObjectReader& r, GraphicConfig& g) {
     });
   }
   if (!r.describing()) {
-    if (r.has("image") == r.has("layers")) r.issue("", r.has("image") ? "has both image and layers" : "has neither image nor layers", "give exactly one of them");
+    if (r.has("image") == r.has("layers"))
+      r.issue("", r.has("image") ? "has both image and layers" : "has neither image nor layers", "give exactly one of them");
     g.layers = layers.empty() ? std::vector<GraphicLayer>{{image, true}} : layers;
     g.single_image = layers.empty();
     bool moves = false;
@@ -55,11 +61,14 @@ void read_graphic(ObjectReader& r, GraphicConfig& g) {
   r.colour("body_colour", g.body_colour, {"sRGB of the fired body without print"});
   r.number("print_dpi", g.print_dpi, {25, 1200, "dpi", "print heads"}, {"of masks/print.tif", 360.0});
   r.number("total_ink_limit", g.total_ink_limit, {0.5, 8, "1"}, {"largest sum of ink fractions in a pixel", 2.4, true});
-  r.object("placement", "a known extra move of the graphic on the print, for trials", [&](ObjectReader& o) {
-    o.number("dx_mm", g.placement_dx_m, {-200, 200, "mm"}, {"across", 0.0});
-    o.number("dy_mm", g.placement_dy_m, {-200, 200, "mm"}, {"along", 0.0});
-    o.number("rotation_deg", g.placement_rotation_rad, {-10, 10, "deg"}, {"about the centre of the slab", 0.0});
-  }, false);
+  r.object(
+      "placement", "a known extra move of the graphic on the print, for trials",
+      [&](ObjectReader& o) {
+        o.number("dx_mm", g.placement_dx_m, {-200, 200, "mm"}, {"across", 0.0});
+        o.number("dy_mm", g.placement_dy_m, {-200, 200, "mm"}, {"along", 0.0});
+        o.number("rotation_deg", g.placement_rotation_rad, {-10, 10, "deg"}, {"about the centre of the slab", 0.0});
+      },
+      false);
 }
 
 void read_vein_map(ObjectReader& r, VeinMapConfig& v) {

@@ -6,14 +6,16 @@ namespace {
 constexpr int kMaterials = 3;  // grain, steel, belt: the fixed order of LineBasics
 
 void read_material(ObjectReader& r, dem::Material& m, bool grain) {
-  // Softened for the time step (seed paper): flow below the jamming density does not depend on E as long as overlaps stay small; the engine reports them.
+  // Softened for the time step (seed paper): flow below the jamming density does not depend on E as long as overlaps stay small; the engine reports
+  // them.
   r.number("young_modulus_mpa", m.young_modulus_pa, {0.1, 1e6, "MPa", "0.1 is already too soft to flow like powder"},
            {grain ? "Young modulus of a granule, softened for the time step" : "Young modulus of the wall, softened for the time step", {}, true});
   r.number("poisson_ratio", m.poisson_ratio, {0, 0.49, "1"}, {"Poisson ratio", 0.25, true});
 }
 
 void read_pair(ObjectReader& r, dem::PairProperties& p) {
-  r.number("restitution", p.restitution, {0.01, 1, "1"}, {"measured coefficient of restitution (0.44: wet-made granules on glass, nearest published)", {}, true});
+  r.number("restitution", p.restitution, {0.01, 1, "1"},
+           {"measured coefficient of restitution (0.44: wet-made granules on glass, nearest published)", {}, true});
   r.number("sliding_friction", p.sliding_friction, {0, 2, "1"}, {"sliding friction coefficient", {}, true});
   r.number("rolling_friction", p.rolling_friction, {0, 1, "1"}, {"rolling friction coefficient of the EPSD law", {}, true});
   r.number("rolling_damping_ratio", p.rolling_damping_ratio, {0, 1, "1"}, {"rolling damping ratio of the EPSD law", 0.3, true});
@@ -27,11 +29,13 @@ void read_powder(ObjectReader& r, PowderSpec& p, bool& body) {
   r.number("shape", p.psd.shape, {0.5, 20, "1"}, {"Weibull shape"});
   r.number("lower_cut_um", p.psd.lower_cut_m, {1, 2000, "um"}, {"smallest grain; the number density diverges at 0 for shape <= 3"});
   r.number("upper_cut_um", p.psd.upper_cut_m, {1, 5000, "um"}, {"largest grain"});
-  r.number("granule_density_kg_m3", p.granule_density_kg_m3, {500, 4000, "kg/m3"}, {"apparent density of a moist granule; the same for all powders of a line", {}, true});
+  r.number("granule_density_kg_m3", p.granule_density_kg_m3, {500, 4000, "kg/m3"},
+           {"apparent density of a moist granule; the same for all powders of a line", {}, true});
   r.number("poured_bulk_density_kg_m3", p.poured_bulk_density_kg_m3, {300, 3000, "kg/m3"}, {"poured bulk density, moist", {}, true});
   if (p.psd.upper_cut_m < p.psd.lower_cut_m) r.issue("upper_cut_um", "the upper cut is below the lower cut", "swap upper_cut_um and lower_cut_um");
   if (p.poured_bulk_density_kg_m3 > 0.75 * p.granule_density_kg_m3)
-    r.issue("poured_bulk_density_kg_m3", "more than 75 % of the granule density: no poured bed packs so tight", "expected 0.52 to 0.60 of granule_density_kg_m3");
+    r.issue("poured_bulk_density_kg_m3", "more than 75 % of the granule density: no poured bed packs so tight",
+            "expected 0.52 to 0.60 of granule_density_kg_m3");
 }
 }  // namespace
 
@@ -41,7 +45,8 @@ void read_slab(ObjectReader& r, LineBasics& b) {
   r.number("fired_thickness_mm", b.fired_thickness_m, {3, 40, "mm"}, {"after firing"});
   r.number("firing_shrinkage_pct", b.firing_shrinkage, {0, 15, "%"}, {"linear; common to body and print", 7.0, true});
   r.number("drying_shrinkage_pct", b.drying_shrinkage, {0, 2, "%"}, {"linear, before printing", 0.1, true});
-  r.number("nominal_springback_pct", b.nominal_springback, {0, 3, "%"}, {"linear expansion out of the press that the line's set-up assumes when it sizes the deposit", 0.5, true});
+  r.number("nominal_springback_pct", b.nominal_springback, {0, 3, "%"},
+           {"linear expansion out of the press that the line's set-up assumes when it sizes the deposit", 0.5, true});
   r.number("fired_density_kg_m3", b.fired_density_kg_m3, {1500, 3500, "kg/m3"}, {"bulk density of the fired slab", 2320.0, true});
   r.number("loss_on_ignition_pct", b.loss_on_ignition, {0, 20, "%"}, {"of the dry powder", 4.5, true});
   r.number("moisture_pct", b.moisture, {0, 12, "%"}, {"of the powder, dry basis", 5.5, true});
@@ -63,9 +68,11 @@ void read_powders(ObjectReader& r, LineBasics& b) {
   b.powders = powders;
   if (powders.size() != 2) return;
   if (bodies + veins == 2 && bodies != 1) r.issue("powders", "needs one powder with role body and one with role vein", "");
-  if (powders[0].name == powders[1].name && !powders[0].name.empty()) r.issue("powders", "two powders are called '" + powders[0].name + "'", "give each its own name");
+  if (powders[0].name == powders[1].name && !powders[0].name.empty())
+    r.issue("powders", "two powders are called '" + powders[0].name + "'", "give each its own name");
   if (powders[0].granule_density_kg_m3 != powders[1].granule_density_kg_m3)
-    r.issue("powders", "granule densities differ: mass and volume fractions would not be the same, which the operators assume", "use one granule_density_kg_m3 for both");
+    r.issue("powders", "granule densities differ: mass and volume fractions would not be the same, which the operators assume",
+            "use one granule_density_kg_m3 for both");
 }
 
 void read_materials(ObjectReader& r, LineBasics& b) {
@@ -85,7 +92,9 @@ void read_materials(ObjectReader& r, LineBasics& b) {
   r.object("grain_belt", "granule on belt", [&](ObjectReader& o) { read_pair(o, belt); });
   // Walls never touch walls; their mutual entries repeat the steel pair so that no entry of the table is unset.
   for (auto& p : t.pairs) p = steel;
-  const auto set = [&](int i, int j, const dem::PairProperties& p) { t.pairs[static_cast<std::size_t>(i * kMaterials + j)] = t.pairs[static_cast<std::size_t>(j * kMaterials + i)] = p; };
+  const auto set = [&](int i, int j, const dem::PairProperties& p) {
+    t.pairs[static_cast<std::size_t>(i * kMaterials + j)] = t.pairs[static_cast<std::size_t>(j * kMaterials + i)] = p;
+  };
   set(LineBasics::kGrain, LineBasics::kGrain, grain);
   set(LineBasics::kGrain, LineBasics::kSteel, steel);
   set(LineBasics::kGrain, LineBasics::kBelt, belt);
@@ -101,9 +110,12 @@ void read_grid(ObjectReader& r, LineConfig& c) {
   r.number("pitch_mm", c.grid_pitch_m, {0.25, 10, "mm"}, {"columns of the bed, across and along", 1.0});
   r.integer("layers", c.basics.grid.nz, {2, 64, "1"}, {"mass layers of the bed, bottom to top", 10});
   r.number("lead_mm", c.grid_lead_m, {20, 3000, "mm"}, {"body powder before and after the design: room for delays and blurs", 150.0});
-  r.number("trim_mm", c.grid_trim_m, {5, 200, "mm"}, {"strip cut away on each side; veins run on into it, and as far beyond both ends of the design", 25.0});
-  r.number("width_module_mm", c.width_module_m, {0.25, 100, "mm"}, {"the bed is as wide as the design rounded up to whole modules (the prong pitch)", 5.0});
-  if (c.grid_trim_m > c.grid_lead_m / 2) r.issue("trim_mm", "more than half of lead_mm", "raise lead_mm: the lead must hold the trim and room for delays");
+  r.number("trim_mm", c.grid_trim_m, {5, 200, "mm"},
+           {"strip cut away on each side; veins run on into it, and as far beyond both ends of the design", 25.0});
+  r.number("width_module_mm", c.width_module_m, {0.25, 100, "mm"},
+           {"the bed is as wide as the design rounded up to whole modules (the prong pitch)", 5.0});
+  if (c.grid_trim_m > c.grid_lead_m / 2)
+    r.issue("trim_mm", "more than half of lead_mm", "raise lead_mm: the lead must hold the trim and room for delays");
   const double n = c.width_module_m / c.grid_pitch_m;
   if (std::isfinite(n) && std::abs(n - std::round(n)) > 1e-6)
     r.issue("pitch_mm", "the width module is not a whole number of columns", "choose a pitch that divides width_module_mm");

@@ -9,7 +9,9 @@
 namespace venato::line {
 
 /// "mass_flow_kg_s" -> {"mass flow", "kg/s"}; the unit is the longest known one that the name ends in.
-struct NamedUnit { std::string words, unit; };
+struct NamedUnit {
+  std::string words, unit;
+};
 NamedUnit split_unit(const std::string& name);
 
 /// One plot per unit in a curve's columns; x is the column of time, delay, position …: the first known abscissa, else the first column.

@@ -11,12 +11,23 @@ namespace venato::line {
 std::string html_escape(std::string_view text) {
   std::string out;
   for (char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }
@@ -48,11 +59,20 @@ std::string pretty_number(double value, std::string_view unit) {
     std::string_view unit;
     double factor;
     const char* shown;
-    double above;   ///< use it when |value| reaches this
+    double above;  ///< use it when |value| reaches this
   };
   // In order of preference for each unit; the last one always fits.
-  static constexpr std::array<Scale, 12> kScales{{{"m", 1, "m", 1}, {"m", 1e3, "mm", 1e-4}, {"m", 1e6, "µm", 0}, {"s", 1, "s", 1}, {"s", 1e3, "ms", 1e-4}, {"s", 1e6, "µs", 0},
-                                                  {"kg/s", 1, "kg/s", 1}, {"kg/s", 1e3, "g/s", 0}, {"Pa", 1e-6, "MPa", 1e5}, {"Pa", 1e-3, "kPa", 1e3}, {"m²/s", 1e6, "mm²/s", 0},
+  static constexpr std::array<Scale, 12> kScales{{{"m", 1, "m", 1},
+                                                  {"m", 1e3, "mm", 1e-4},
+                                                  {"m", 1e6, "µm", 0},
+                                                  {"s", 1, "s", 1},
+                                                  {"s", 1e3, "ms", 1e-4},
+                                                  {"s", 1e6, "µs", 0},
+                                                  {"kg/s", 1, "kg/s", 1},
+                                                  {"kg/s", 1e3, "g/s", 0},
+                                                  {"Pa", 1e-6, "MPa", 1e5},
+                                                  {"Pa", 1e-3, "kPa", 1e3},
+                                                  {"m²/s", 1e6, "mm²/s", 0},
                                                   {"kg", 1, "kg", 0}}};
   double shown = value;
   std::string_view shown_unit = unit;

@@ -24,6 +24,8 @@ th,td{padding:6px 14px 6px 0;text-align:left;border-bottom:1px solid var(--rule)
 th{font-weight:600;color:var(--soft)}
 td.n,th.n{text-align:right;white-space:nowrap}
 tr.main td{font-weight:600}
+.score td:first-child{white-space:nowrap}.score td:last-child{font-weight:400;min-width:17em}
+.score th.n{white-space:normal}
 code{font:.88em/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;overflow-wrap:anywhere}
 figure{margin:0}
 figure img{display:block;width:100%;height:auto;border:1px solid var(--rule);border-radius:4px;background:#fff}

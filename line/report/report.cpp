@@ -13,7 +13,7 @@ namespace venato::line {
 namespace {
 // Tolerance until a plant says otherwise: median <= 1 mm and P95 <= 2 mm good, P95 <= 3 mm acceptable, more is visible at an eased or mitred edge.
 constexpr double kGoodMedian_mm = 1.0, kGoodP95_mm = 2.0, kFairP95_mm = 3.0;
-constexpr double kLowMatch = 0.8;   // below it a distance on matched length alone would flatter
+constexpr double kLowMatch = 0.8;  // below it a distance on matched length alone would flatter
 
 using Data = ReportData;
 
@@ -44,7 +44,9 @@ class Page {
       if (f.file == file) return &f;
     return nullptr;
   }
-  std::string figure(const ReportFigure& f) const { return "<figure>" + image(f) + "<figcaption><b>" + html_escape(f.title) + "</b>" + html_escape(f.caption) + "</figcaption></figure>\n"; }
+  std::string figure(const ReportFigure& f) const {
+    return "<figure>" + image(f) + "<figcaption><b>" + html_escape(f.title) + "</b>" + html_escape(f.caption) + "</figcaption></figure>\n";
+  }
   std::string grid(const std::vector<const ReportFigure*>& list, bool plots) const {
     std::string out;
     for (const auto* f : list) out += figure(*f);
@@ -74,11 +76,14 @@ std::string Page::verdict() const {
     return "<div class=\"verdict bad\"><strong>Not synchronised</strong>The graphic could not be matched to the slab: " + html_escape(d.reason) +
            ". The print files are as designed; do not expect print and body to line up.</div>\n";
   const bool low_match = !(d.after.matched >= kLowMatch);
-  const bool good = d.after.median_mm <= kGoodMedian_mm && d.after.p95_mm <= kGoodP95_mm && !low_match, fair = d.after.p95_mm <= kFairP95_mm && !low_match;
+  const bool good = d.after.median_mm <= kGoodMedian_mm && d.after.p95_mm <= kGoodP95_mm && !low_match,
+             fair = d.after.p95_mm <= kFairP95_mm && !low_match;
   const char* kind = good ? "good" : fair ? "fair" : "bad";
   const char* head = good ? "Within tolerance" : fair ? "Acceptable, not yet good" : low_match ? "Too few veins line up" : "Outside tolerance";
   std::string out = "<div class=\"verdict " + std::string(kind) + "\"><strong>" + head + "</strong>";
-  out += format("After synchronisation half of the vein length lies within %.2f mm of its body vein and 95 %% within %.2f mm, on %.0f %% of the length. ", d.after.median_mm, d.after.p95_mm, d.after.matched * 100);
+  out += format(
+      "After synchronisation half of the vein length lies within %.2f mm of its body vein and 95 %% within %.2f mm, on %.0f %% of the length. ",
+      d.after.median_mm, d.after.p95_mm, d.after.matched * 100);
   out += format("Before it was %.2f mm and %.2f mm on %.0f %%. ", d.before.median_mm, d.before.p95_mm, d.before.matched * 100);
   out += format("With the simulation's own displacement it would be %.2f mm and %.2f mm. ", d.best.median_mm, d.best.p95_mm);
   return out + "Tolerance: median 1 mm and P95 2 mm is good, P95 3 mm acceptable.</div>\n";
@@ -102,33 +107,46 @@ std::string Page::scores() const {
       {"Dice", "0 to 1; shared vein area", [](const auto& m) { return fixed(m.dice, 3); }, false},
       {"Body vein without print", "mm of centre line", [](const auto& m) { return fixed(m.missing_mm, 0); }, false},
       {"Print without body vein", "mm of centre line", [](const auto& m) { return fixed(m.extra_mm, 0); }, false}};
-  std::string out = "<div class=\"scroll\"><table><tr><th>Score</th><th class=\"n\">before</th><th class=\"n\">after</th><th class=\"n\">best reachable</th><th>meaning</th></tr>\n";
+  std::string out =
+      "<div class=\"scroll score\"><table><tr><th>Score</th><th class=\"n\">before</th><th class=\"n\">after</th><th class=\"n\">best "
+      "reachable</th><th>meaning</th></tr>\n";
   for (const auto& r : rows)
-    out += std::string(r.main ? "<tr class=\"main\">" : "<tr>") + "<td>" + r.name + "</td><td class=\"n\">" + r.value(d.before) + "</td><td class=\"n\">" + r.value(d.after) + "</td><td class=\"n\">" +
-           r.value(d.best) + "</td><td>" + r.meaning + "</td></tr>\n";
-  return out + "</table></div>\n<p class=\"sub\">Distances count on matched length only, so read them with the matched length. Best reachable uses the displacement that the simulation itself produced; "
-               "what is left there is blur and the simplification of the veins.</p>\n";
+    out += std::string(r.main ? "<tr class=\"main\">" : "<tr>") + "<td>" + r.name + "</td><td class=\"n\">" + r.value(d.before) +
+           "</td><td class=\"n\">" + r.value(d.after) + "</td><td class=\"n\">" + r.value(d.best) + "</td><td>" + r.meaning + "</td></tr>\n";
+  return out +
+         "</table></div>\n<p class=\"sub\">Distances count on matched length only, so read them with the matched length. Best reachable uses the "
+         "displacement that the simulation itself produced; "
+         "what is left there is blur and the simplification of the veins.</p>\n";
 }
 
 std::string Page::overlay() const {
   std::string out = "<h2 id=\"sync\">Print on body</h2>\n";
   const auto *before = find("figures/overlay_before.png"), *after = find("figures/overlay_after.png");
   if (before && after) {
-    out += "<p>Move the pointer or finger across the picture: left of the line before, right of it after synchronisation.</p>\n"
-           "<div class=\"slider\">" + image(*after, "class=\"under\"") + image(*before, "class=\"top\"") +
-           "<span class=\"bar\"></span><span class=\"tag l\">before</span><span class=\"tag r\">after</span>"
-           "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" step=\"0.5\" aria-label=\"before and after\"></div>\n"
-           "<p class=\"key\"><span><i style=\"background:#56b4e9\"></i>body vein only</span><span><i style=\"background:#e69f00\"></i>print vein only</span>"
-           "<span><i style=\"background:#2d2d32\"></i>both</span></p>\n";
+    out +=
+        "<p>Move the pointer or finger across the picture: left of the line before, right of it after synchronisation.</p>\n"
+        "<div class=\"slider\">" +
+        image(*after, "class=\"under\"") + image(*before, "class=\"top\"") +
+        "<span class=\"bar\"></span><span class=\"tag l\">before</span><span class=\"tag r\">after</span>"
+        "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" step=\"0.5\" aria-label=\"before and after\"></div>\n"
+        "<p class=\"key\"><span><i style=\"background:#56b4e9\"></i>body vein only</span><span><i style=\"background:#e69f00\"></i>print vein "
+        "only</span>"
+        "<span><i style=\"background:#2d2d32\"></i>both</span></p>\n";
   }
-  out += grid(select([](const auto& f) { return f.section == "sync" && f.file != "figures/overlay_before.png" && f.file != "figures/overlay_after.png"; }), false);
+  out += grid(
+      select([](const auto& f) { return f.section == "sync" && f.file != "figures/overlay_before.png" && f.file != "figures/overlay_after.png"; }),
+      false);
   if (!d.gates.empty()) {
     out += format("<h3>Why the registration is believed</h3><p>Confidence %.2f. ", d.confidence) +
-           (std::isfinite(d.true_median_mm) ? format("Against the simulation's own displacement its error over the vein area is %.2f mm (median) and %.2f mm (P95).", d.true_median_mm, d.true_p95_mm) : std::string()) +
+           (std::isfinite(d.true_median_mm)
+                ? format("Against the simulation's own displacement its error over the vein area is %.2f mm (median) and %.2f mm (P95).",
+                         d.true_median_mm, d.true_p95_mm)
+                : std::string()) +
            "</p>\n<div class=\"scroll\"><table><tr><th>Gate</th><th class=\"n\">value</th><th class=\"n\">limit</th><th></th><th>meaning</th></tr>\n";
     for (const auto& g : d.gates)
-      out += "<tr><td>" + html_escape(g.name) + "</td><td class=\"n\">" + pretty_number(g.value, "") + "</td><td class=\"n\">" + pretty_number(g.limit, "") + "</td><td class=\"" +
-             (g.passed ? "pass\">passed" : "fail\">failed") + "</td><td>" + html_escape(g.meaning) + "</td></tr>\n";
+      out += "<tr><td>" + html_escape(g.name) + "</td><td class=\"n\">" + pretty_number(g.value, "") + "</td><td class=\"n\">" +
+             pretty_number(g.limit, "") + "</td><td class=\"" + (g.passed ? "pass\">passed" : "fail\">failed") + "</td><td>" +
+             html_escape(g.meaning) + "</td></tr>\n";
     out += "</table></div>\n";
   }
   return out;
@@ -151,12 +169,14 @@ std::string Page::slab() const {
 std::string Page::stages() const {
   std::string out = "<h2 id=\"stages\">Stage by stage</h2>\n";
   for (const auto& s : d.stages) {
-    out += "<h3>" + html_escape(s.name) + "</h3>\n<p class=\"sub\">" + (s.cached ? "Operator from the store, no simulation." : "Operator by particle simulation in this run.") + "</p>\n";
+    out += "<h3>" + html_escape(s.name) + "</h3>\n<p class=\"sub\">" +
+           (s.cached ? "Operator from the store, no simulation." : "Operator by particle simulation in this run.") + "</p>\n";
     for (const auto& w : s.warnings) out += "<p class=\"fail\">" + html_escape(w) + "</p>\n";
     auto values = s.figures;
     for (const auto& [name, value] : s.kpi) values[name] = value;
     if (!values.empty()) {
-      out += "<details" + std::string(values.size() <= 12 ? " open" : "") + "><summary>Figures (" + std::to_string(values.size()) + ")</summary><div class=\"scroll\"><table>\n";
+      out += "<details" + std::string(values.size() <= 12 ? " open" : "") + "><summary>Figures (" + std::to_string(values.size()) +
+             ")</summary><div class=\"scroll\"><table>\n";
       for (const auto& [name, value] : values) {
         const auto n = split_unit(name);
         out += "<tr><td>" + html_escape(n.words) + "</td><td class=\"n\">" + html_escape(pretty_number(value, n.unit)) + "</td></tr>\n";
@@ -169,17 +189,22 @@ std::string Page::stages() const {
 }
 
 std::string Page::book() const {
-  std::string out = "<h2 id=\"book\">Mass book and timings</h2>\n<div class=\"scroll\"><table><tr><th>Stage</th><th class=\"n\">in, kg</th><th class=\"n\">out, kg</th><th class=\"n\">difference</th>"
-                    "<th class=\"n\">time, s</th><th>operator</th></tr>\n";
+  std::string out =
+      "<h2 id=\"book\">Mass book and timings</h2>\n<div class=\"scroll\"><table><tr><th>Stage</th><th class=\"n\">in, kg</th><th class=\"n\">out, "
+      "kg</th><th class=\"n\">difference</th>"
+      "<th class=\"n\">time, s</th><th>operator</th></tr>\n";
   const auto defect = [](double in, double o) { return in > 0 ? format("%.1e", std::abs(in - o) / in) : std::string("–"); };
   for (const auto& s : d.stages)
-    out += "<tr><td>" + html_escape(s.name) + "</td><td class=\"n\">" + fixed(s.mass_in_kg, 4) + "</td><td class=\"n\">" + fixed(s.mass_out_kg, 4) + "</td><td class=\"n\">" + defect(s.mass_in_kg, s.mass_out_kg) +
-           "</td><td class=\"n\">" + fixed(s.wall_s, 2) + "</td><td>" + (s.cached ? "store" : "simulated") + "</td></tr>\n";
-  out += "<tr class=\"main\"><td>feed commands → slab strip</td><td class=\"n\">" + fixed(d.feed_kg, 4) + "</td><td class=\"n\">" + fixed(d.slab_kg, 4) + "</td><td class=\"n\">" + defect(d.feed_kg, d.slab_kg) +
+    out += "<tr><td>" + html_escape(s.name) + "</td><td class=\"n\">" + fixed(s.mass_in_kg, 4) + "</td><td class=\"n\">" + fixed(s.mass_out_kg, 4) +
+           "</td><td class=\"n\">" + defect(s.mass_in_kg, s.mass_out_kg) + "</td><td class=\"n\">" + fixed(s.wall_s, 2) + "</td><td>" +
+           (s.cached ? "store" : "simulated") + "</td></tr>\n";
+  out += "<tr class=\"main\"><td>feed commands → slab strip</td><td class=\"n\">" + fixed(d.feed_kg, 4) + "</td><td class=\"n\">" +
+         fixed(d.slab_kg, 4) + "</td><td class=\"n\">" + defect(d.feed_kg, d.slab_kg) +
          "</td><td></td><td></td></tr></table></div>\n<div class=\"scroll\"><table><tr><th>Phase</th><th class=\"n\">s</th></tr>\n";
   for (const auto& [phase, seconds] : d.timing_s) {
     auto name = split_unit(phase).words;
-    out += "<tr" + std::string(name == "total" ? " class=\"main\"" : "") + "><td>" + html_escape(name) + "</td><td class=\"n\">" + fixed(seconds, 2) + "</td></tr>\n";
+    out += "<tr" + std::string(name == "total" ? " class=\"main\"" : "") + "><td>" + html_escape(name) + "</td><td class=\"n\">" + fixed(seconds, 2) +
+           "</td></tr>\n";
   }
   return out + "</table></div>\n" + format("<p class=\"sub\">%.0f threads, at most %.2f GiB of memory.</p>\n", d.threads, d.peak_memory_gib);
 }
@@ -192,23 +217,31 @@ std::string Page::doubts() const {
     out += "</ul>\n";
   }
   if (d.placeholders.empty()) return out + "<p>No placeholder numbers were used.</p>\n";
-  out += "<h3>Placeholders</h3><p>These numbers have no public source. Replace them by your plant's before you trust millimetres.</p>\n<details><summary>" + std::to_string(d.placeholders.size()) +
-         " placeholder numbers</summary><div class=\"scroll\"><table><tr><th>Key</th><th class=\"n\">value</th><th>unit</th><th>what</th></tr>\n";
+  out +=
+      "<h3>Placeholders</h3><p>These numbers have no public source. Replace them by your plant's before you trust "
+      "millimetres.</p>\n<details><summary>" +
+      std::to_string(d.placeholders.size()) +
+      " placeholder numbers</summary><div class=\"scroll\"><table><tr><th>Key</th><th class=\"n\">value</th><th>unit</th><th>what</th></tr>\n";
   for (const auto& p : d.placeholders)
-    out += "<tr><td><code>" + html_escape(p.pointer) + "</code></td><td class=\"n\">" + html_escape(p.value) + "</td><td>" + html_escape(p.unit) + "</td><td>" + html_escape(p.help) + "</td></tr>\n";
+    out += "<tr><td><code>" + html_escape(p.pointer) + "</code></td><td class=\"n\">" + html_escape(p.value) + "</td><td>" + html_escape(p.unit) +
+           "</td><td>" + html_escape(p.help) + "</td></tr>\n";
   return out + "</table></div></details>\n";
 }
 
 std::string Page::html() {
   const std::string title = d.title.empty() ? std::filesystem::path(d.config_file).stem().string() : d.title;
-  std::string out = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
-                    html_escape(title) + " – Venato</title>\n<style>" + kReportStyle + "</style></head><body>\n<header><h1>" + html_escape(title) +
-                    "</h1><p class=\"sub\">Predicted veins of a full-body slab and the print that follows them</p>\n" +
-                    "<nav><a href=\"#sync\">Print on body</a><a href=\"#asked\">What was asked</a><a href=\"#slab\">The slab</a><a href=\"#stages\">Stages</a><a href=\"#book\">Mass and time</a>"
-                    "<a href=\"#doubts\">What to doubt</a></nav></header>\n<main>\n";
+  std::string out =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
+      html_escape(title) + " – Venato</title>\n<style>" + kReportStyle + "</style></head><body>\n<header><h1>" + html_escape(title) +
+      "</h1><p class=\"sub\">Predicted veins of a full-body slab and the print that follows them</p>\n" +
+      "<nav><a href=\"#sync\">Print on body</a><a href=\"#asked\">What was asked</a><a href=\"#slab\">The slab</a><a href=\"#stages\">Stages</a><a "
+      "href=\"#book\">Mass and time</a>"
+      "<a href=\"#doubts\">What to doubt</a></nav></header>\n<main>\n";
   out += verdict() + scores() + overlay() + asked() + slab() + stages() + book() + doubts();
-  out += "</main>\n<footer>Venato " + html_escape(d.code_version) + " · seed " + html_escape(d.seed) + " · config <code>" + html_escape(d.config_sha256.substr(0, 16)) + "</code> · " + html_escape(d.cpu) +
-         "</footer>\n<script>" + kReportScript + "</script>\n</body></html>\n";
+  out += "</main>\n<footer>Venato " + html_escape(d.code_version) + " · seed " + html_escape(d.seed) + " · config <code>" +
+         html_escape(d.config_sha256.substr(0, 16)) + "</code> · " + html_escape(d.cpu) + "</footer>\n<script>" + kReportScript +
+         "</script>\n</body></html>\n";
   return out;
 }
 }  // namespace

@@ -10,8 +10,14 @@ namespace venato::line {
 struct ReportMetrics {
   double median_mm, p95_mm, offset_mm, matched, f1_1, f1_2, f1_3, dice, missing_mm, extra_mm;
 };
-struct ReportFigure { std::string file, section, title, caption; };
-struct ReportGate { std::string name, meaning; double value, limit; bool passed; };
+struct ReportFigure {
+  std::string file, section, title, caption;
+};
+struct ReportGate {
+  std::string name, meaning;
+  double value, limit;
+  bool passed;
+};
 struct ReportStage {
   std::string name;
   double wall_s, mass_in_kg, mass_out_kg;
@@ -19,12 +25,14 @@ struct ReportStage {
   std::map<std::string, double> kpi, figures;
   std::vector<std::string> warnings;
 };
-struct ReportPlaceholder { std::string pointer, value, unit, help; };
+struct ReportPlaceholder {
+  std::string pointer, value, unit, help;
+};
 struct ReportData {
   std::string title, code_version, config_file, config_sha256, cpu, seed;
   int threads = 0;
   double peak_memory_gib = 0;
-  std::vector<std::pair<std::string, std::string>> asked;      ///< label, value
+  std::vector<std::pair<std::string, std::string>> asked;  ///< label, value
   ReportMetrics before{}, after{}, best{};
   bool registered = false;
   std::string reason;

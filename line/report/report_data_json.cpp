@@ -27,9 +27,16 @@ ReportMetrics metrics(const Json& score, const char* which) {
   const Json& m = score.at(which);
   const Json& more = score.at("details").at(which);
   const auto detail = [&](const char* key) { return more.is_object() ? number(more.at(key)) : std::numeric_limits<double>::quiet_NaN(); };
-  return {number(m.at("centreline_error_mm").at("median")), number(m.at("centreline_error_mm").at("p95")), detail("centreline_offset_mm"), number(m.at("matched_length")),
-          number(m.at("boundary_f1").at("1mm")), number(m.at("boundary_f1").at("2mm")), number(m.at("boundary_f1").at("3mm")), number(m.at("dice")),
-          detail("missing_length_mm"), detail("extra_length_mm")};
+  return {number(m.at("centreline_error_mm").at("median")),
+          number(m.at("centreline_error_mm").at("p95")),
+          detail("centreline_offset_mm"),
+          number(m.at("matched_length")),
+          number(m.at("boundary_f1").at("1mm")),
+          number(m.at("boundary_f1").at("2mm")),
+          number(m.at("boundary_f1").at("3mm")),
+          number(m.at("dice")),
+          detail("missing_length_mm"),
+          detail("extra_length_mm")};
 }
 
 std::map<std::string, double> numbers(const Json& object) {
@@ -49,7 +56,8 @@ std::string joined_names(const Json& array, const char* extra = nullptr) {
 
 void read_asked(const Json& in, ReportData& d) {
   const auto& slab = in.at("slab");
-  d.asked = {{"Slab, fired", plain(number(slab.at("fired_width_mm"))) + " × " + plain(number(slab.at("fired_length_mm"))) + " × " + plain(number(slab.at("fired_thickness_mm"))) + " mm"},
+  d.asked = {{"Slab, fired", plain(number(slab.at("fired_width_mm"))) + " × " + plain(number(slab.at("fired_length_mm"))) + " × " +
+                                 plain(number(slab.at("fired_thickness_mm"))) + " mm"},
              {"Powders", joined_names(in.at("powders"), "role")},
              {"Belt speed", plain(number(in.at("belt_speed_m_s")) * 60) + " m/min"},
              {"Bed grid", plain(number(in.at("grid").at("pitch_mm"))) + " mm, " + plain(number(in.at("grid").at("layers"))) + " layers"},
@@ -61,13 +69,15 @@ void read_asked(const Json& in, ReportData& d) {
   d.asked.emplace_back("Chain", chain);
   const auto& p = in.at("graphic").at("placement");
   if (number(p.at("dx_mm")) != 0 || number(p.at("dy_mm")) != 0 || number(p.at("rotation_deg")) != 0)
-    d.asked.emplace_back("Trial move of the graphic", plain(number(p.at("dx_mm"))) + " mm, " + plain(number(p.at("dy_mm"))) + " mm, " + plain(number(p.at("rotation_deg"))) + "°");
+    d.asked.emplace_back("Trial move of the graphic",
+                         plain(number(p.at("dx_mm"))) + " mm, " + plain(number(p.at("dy_mm"))) + " mm, " + plain(number(p.at("rotation_deg"))) + "°");
   d.title = in.value("title", "");
 }
 
 void read_result(const Json& r, ReportData& d) {
   for (const auto& s : r.at("stages"))
-    d.stages.push_back({s.at("name"), number(s.at("wall_s")), number(s.at("mass_in_kg")), number(s.at("mass_out_kg")), s.at("cached"), numbers(s.at("kpi")), numbers(s.at("operator").at("figures")),
+    d.stages.push_back({s.at("name"), number(s.at("wall_s")), number(s.at("mass_in_kg")), number(s.at("mass_out_kg")), s.at("cached"),
+                        numbers(s.at("kpi")), numbers(s.at("operator").at("figures")),
                         s.at("operator").at("warnings").get<std::vector<std::string>>()});
   d.feed_kg = number(r.at("mass").at("feed_commands_kg"));
   d.slab_kg = number(r.at("mass").at("slab_strip_kg"));
@@ -76,7 +86,8 @@ void read_result(const Json& r, ReportData& d) {
   d.internal_residual_mm = number(reg.at("internal_residual_mm"));
   d.true_median_mm = number(reg.at("against_simulation_mm").at("after").at("median"));
   d.true_p95_mm = number(reg.at("against_simulation_mm").at("after").at("p95"));
-  for (const auto& g : reg.at("gates")) d.gates.push_back({g.at("name"), g.at("meaning"), number(g.at("value")), number(g.at("limit")), g.at("passed")});
+  for (const auto& g : reg.at("gates"))
+    d.gates.push_back({g.at("name"), g.at("meaning"), number(g.at("value")), number(g.at("limit")), g.at("passed")});
   for (const auto& p : r.at("placeholders")) d.placeholders.push_back({p.at("pointer"), p.at("value"), p.at("unit"), p.at("help")});
   d.warnings = r.at("warnings").get<std::vector<std::string>>();
   for (const auto& f : r.at("figures")) d.figures.push_back({f.at("file"), f.at("section"), f.at("title"), f.at("caption")});

@@ -1,7 +1,7 @@
 #pragma once
 /// Identification of a dosing device from one pseudo-random pulse train: how the mass flow below follows on/off commands above.
-/// Model: f(t) = m_dot * sum over pulses of (box[on, off) * G)(t), G >= 0, integral 1: the delay distribution. Estimated by weighted Richardson-Lucy
-/// iteration (keeps G >= 0 and the mass), which is the maximum-likelihood answer for counted grains (Richardson 1972, Lucy 1974).
+/// Model: f(t) = m_dot * sum over pulses of (box[on, off) * G)(t) with a gamma law G with dead time (mean, spread, shape): four numbers fitted by least squares to the binned flow
+/// (Levenberg-Marquardt). A free-form G was tried first (Richardson-Lucy): with the few thousand grains of a short slice it grew side lobes of noise that doubled the spread.
 #include <cstdint>
 #include <vector>
 namespace venato::line {
@@ -10,17 +10,15 @@ struct PulseWindow { double on_s, off_s; };
 struct TimedMass { double time_s, mass_kg; };   ///< one grain at the place of measurement
 
 struct ResponseOptions {
-  double bin_s = 0.0025;
-  double max_delay_s = 0.5;
-  int iterations = 300;
-  double smoothing_bins = 1.0;   ///< Gaussian sigma applied to G after each iteration: stops the noise that long RL runs grow
+  double bin_s = 0.005;          ///< of the flow the law is fitted to
+  double kernel_bin_s = 0.0025;  ///< of the delay distribution returned
 };
 struct PulseResponse {
   std::vector<double> delay_s, weight;        ///< G: bin centres and weights (sum 1)
   double mass_flow_kg_s = 0;                  ///< steady flow while on (fit over the whole train)
   double mean_delay_s = 0, sd_delay_s = 0;
-  double latency_on_s = 0, latency_off_s = 0; ///< switch to 50 % of the flow, from the aligned mean flow
-  double rise_s = 0, decay_s = 0;             ///< 10-90 %
+  double latency_on_s = 0, latency_off_s = 0; ///< switch to 50 % of the flow, from the aligned mean flow smoothed over 20 ms; NaN when no pulse is long enough
+  double rise_s = 0;                          ///< 10-90 % of the delay law
   double superposition_defect = 0;            ///< |f_on-aligned - model| / |model| over the averaged edges: how far the device is from linear
   double mass_per_pulse_error = 0;            ///< relative sd over pulses of measured / modelled pulse mass
   std::vector<double> edge_time_s, flow_after_on_kg_s, flow_after_off_kg_s, model_after_on_kg_s;   ///< aligned mean flows for the plot

@@ -32,7 +32,7 @@ LateralHistogram lateral_histogram(const std::vector<WeightedShift>& shifts, dou
 std::vector<Landing> landings_of(const PulseResponse& r, const LateralHistogram& h) {
   std::vector<Landing> out;
   for (std::size_t i = 0; i < r.weight.size(); ++i) {
-    if (r.weight[i] < 1e-9) continue;   // far tail of the iteration: 1e-9 of the mass, renormalised by operator_from_landings
+    if (r.weight[i] < 1e-9) continue;   // far tail: 1e-9 of the mass, renormalised by operator_from_landings
     for (std::size_t j = 0; j < h.weight.size(); ++j)
       if (h.weight[j] > 0) out.push_back({0, 0, r.delay_s[i], h.centre_m[j], r.weight[i] * h.weight[j]});
   }
@@ -52,7 +52,7 @@ Operator operator_from_response(const ResponseOperatorInput& in) {
     for (std::size_t p = 0; p < weights.size(); ++p) weights[rng.below(weights.size())] += 1;
     sets.push_back(landings_of(estimate_pulse_response(in.landed, in.pulses, in.start_s, in.end_s, in.options, weights), lateral));
   }
-  Operator op = operator_with_replicates(in.stage, sets, 1, 1, in.options.bin_s, in.lateral_bin_m, false);
+  Operator op = operator_with_replicates(in.stage, sets, 1, 1, in.options.kernel_bin_s, in.lateral_bin_m, false);
   op.figures["mass_flow_kg_s"] = best.mass_flow_kg_s;
   op.figures["mean_delay_s"] = best.mean_delay_s;
   op.figures["sd_delay_s"] = best.sd_delay_s;
@@ -60,7 +60,6 @@ Operator operator_from_response(const ResponseOperatorInput& in) {
   op.figures["latency_on_s"] = best.latency_on_s;
   op.figures["latency_off_s"] = best.latency_off_s;
   op.figures["rise_s"] = best.rise_s;
-  op.figures["decay_s"] = best.decay_s;
   op.figures["superposition_defect"] = best.superposition_defect;
   op.figures["pulse_mass_scatter"] = best.mass_per_pulse_error;
   if (best.superposition_defect > 0.15)
@@ -78,6 +77,8 @@ void add_slice_figures(const dem::Case& c, const dem::CaseResult& r, Operator& o
   op.figures["largest_overlap"] = r.max_overlap_seen;
   op.figures["largest_speed_m_s"] = r.max_speed_seen_m_s;
   op.figures["simulated_s"] = c.duration_s;
-  for (const std::string& w : r.warnings) op.warnings.push_back(w);
+  for (const std::string& w : r.warnings)
+    // Feeds under level control are meant to offer more than fits.
+    if (w.find("for lack of room") == std::string::npos) op.warnings.push_back(w);
 }
 }  // namespace venato::line

@@ -21,7 +21,7 @@ struct ResponseOperatorInput {
 };
 
 /// Kernel of a dosing device: delay distribution G(theta) of the identified pulse response times the distribution of lateral shifts (independent of each other: a
-/// grain's delay is set in the device, its sideways scatter in the fall). Figures: mass_flow_kg_s, latency_on_s, latency_off_s, rise_s, decay_s, mean_delay_s, sd_delay_s, sd_lateral_m,
+/// grain's delay is set in the device, its sideways scatter in the fall). Figures: mass_flow_kg_s, latency_on_s, latency_off_s, rise_s, mean_delay_s, sd_delay_s, sd_lateral_m,
 /// superposition_defect, pulse_mass_scatter. Curve "step response".
 Operator operator_from_response(const ResponseOperatorInput& input);
 

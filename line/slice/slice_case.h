@@ -14,7 +14,7 @@ struct SliceNumerics {
   double slice_width_m = 0.006;       ///< periodic length across the belt
   double expected_max_speed_m_s = 1.5;
 };
-void read_slice_numerics(ObjectReader& r, SliceNumerics& n, double default_coarse_graining, double default_width_mm);
+void read_slice_numerics(ObjectReader& r, SliceNumerics& n, double default_coarse_graining, double default_width_mm, double default_max_speed_m_s);
 
 /// Empty periodic slice (x across the belt is periodic) with the line's materials and, as species, the listed powders.
 dem::Case make_slice_case(const LineBasics& basics, std::string_view name, const SliceNumerics& numerics, const std::vector<int>& powders, double y_low_m,
@@ -28,10 +28,14 @@ std::size_t add_profile_wall(dem::Case& c, std::string name, const Profile& yz_m
 /// Runs the case; an interrupted run leaves `checkpoint` and continues from it, bit for bit, the next time.
 dem::CaseResult run_slice(const dem::Case& c, const std::filesystem::path& checkpoint, Context& context);
 
+/// Cost of a slice that is fed under level control: it holds about as many grains as it starts with, however many pass through.
+dem::CaseCost estimate_slice_cost(const dem::Case& c, int threads);
+
 /// Warns where coarse grains are too coarse for an opening: fewer than 6 largest-grain diameters (Beverloo's range), with numbers.
 void warn_if_too_coarse(const LineBasics& basics, const SliceNumerics& numerics, std::string_view what, double opening_m, std::vector<std::string>& warnings);
 
-/// Largest and mean (by number) coarse-grained grain diameter of a powder [m].
+/// Largest, smallest and mean (by number) coarse-grained grain diameter of a powder [m].
 double largest_grain_m(const LineBasics& basics, double coarse_graining);
+double smallest_grain_m(const LineBasics& basics, double coarse_graining);
 double mean_grain_m(const LineBasics& basics, int powder, double coarse_graining);
 }  // namespace venato::line

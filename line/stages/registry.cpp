@@ -6,10 +6,14 @@ namespace venato::line {
 
 std::string_view to_string(ProductKind kind) {
   switch (kind) {
-    case ProductKind::commands: return "commands";
-    case ProductKind::partial_bed: return "a partial bed";
-    case ProductKind::full_bed: return "a full bed";
-    case ProductKind::slab: return "a slab";
+    case ProductKind::commands:
+      return "commands";
+    case ProductKind::partial_bed:
+      return "a partial bed";
+    case ProductKind::full_bed:
+      return "a full bed";
+    case ProductKind::slab:
+      return "a slab";
   }
   return "?";
 }

@@ -31,7 +31,7 @@ struct EvidencePair {
   Evidence green, print;
 };
 /// The pairs to try, best first. A fraction map: against the veins planned from the graphic (what the dosing heads were told), then, should that not
-/// register (the graphic was planned in another way), against the graphic's lightness. A picture of a slab: lightness against lightness.
+/// register well (the graphic was planned in another way), against the graphic's lightness. A picture of a slab: lightness against lightness.
 std::vector<EvidencePair> evidence_pairs(const SyncInput& vein_map, const SyncInput& graphic);
 
 /// L*/100 of a grey or sRGB picture.

@@ -9,9 +9,10 @@ namespace {
 constexpr double kVeinTexture = 0.25, kMinPeak = 0.2, kMinValid = 0.7;  // registration_print.md 1.3
 // Veins that faded to a fifth fall below the source's texture limit and leave whole regions without evidence: they are admitted if they match well.
 constexpr double kFadedTexture = 0.08, kFadedPeak = 0.5;
-constexpr double kMaxPeak = 0.999;           // v / (1 - v) of identical pictures stays finite
-constexpr double kRidgePreference = 0.03;    // along a straight vein all shifts score alike: prefer the smaller one
-constexpr double kWeakDirection = 0.05;      // curvature below this share of the strong one: no sub-pixel step along it
+constexpr double kMaxPeak = 0.999;         // v / (1 - v) of identical pictures stays finite
+constexpr double kRidgePreference = 0.03;  // along a straight vein all shifts score alike: prefer the smaller one
+constexpr double kWeakDirection = 0.05;    // curvature below this share of the strong one: no sub-pixel step along it
+constexpr double kMaxStep_px = 1.5;        // a step beyond the neighbouring pixels means that the peak is no peak
 constexpr int kLanes = 16;
 
 /// Window around a block with rows padded to whole lanes, so that the inner loop has a fixed summation order on every SIMD width.
@@ -122,28 +123,67 @@ Surface ncc_surface(Patch& block, Patch& window, int s, double print_variance_fl
 }
 
 /// Least-squares quadratic a + b x + c y + d x^2 + e x y + f y^2 on 5 x 5: closed form on the symmetric grid.
-struct Quadratic { double value; Point slope; Eigen::Matrix2d hessian; };
+struct Quadratic {
+  Eigen::Matrix2d hessian;
+};
 bool fit_quadratic(const Surface& v, int dx, int dy, Quadratic& q) {
-  double s0 = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  double sxx = 0, sxy = 0, syy = 0;
   for (int y = -2; y <= 2; ++y)
     for (int x = -2; x <= 2; ++x) {
       const double value = v.at(dx + x, dy + y);
       if (!std::isfinite(value)) return false;
-      s0 += value;
-      sx += x * value;
-      sy += y * value;
       sxx += (x * x - 2) * value;
       syy += (y * y - 2) * value;
       sxy += x * y * value;
     }
-  const double d = sxx / 70, f = syy / 70, e = sxy / 100;  // 5 * sum (x^2 - 2)^2 = 70, (sum x^2)^2 = 100, 5 * sum x^2 = 50
-  q.value = s0 / 25 - 2 * d - 2 * f;
-  q.slope = Point(sx / 50, sy / 50);
+  const double d = sxx / 70, f = syy / 70, e = sxy / 100;  // 5 * sum (x^2 - 2)^2 = 70, (sum x^2)^2 = 100
   q.hessian << 2 * d, e, e, 2 * f;
   return true;
 }
 
-bool locate(const Surface& v, double pixel_m, double min_peak, BlockMatch& out) {
+/// Sub-pixel step from an integer shift: Newton on the NCC itself, with its exact derivative and the Gauss-Newton curvature. The top of a quadratic
+/// through the NCC samples is biased, because the NCC of a block is not symmetric about its peak: 0.1-0.2 mm on identical pictures.
+bool subpixel_step(const Patch& block, const Patch& window, int x0, int y0, Point& step) {
+  double n = 0, t = 0, w = 0, tt = 0, ww = 0, tw = 0;
+  Point g = Point::Zero(), tg = Point::Zero(), wg = Point::Zero();
+  Eigen::Matrix2d gg = Eigen::Matrix2d::Zero();
+  const int stride = window.stride;
+  for (int j = 0; j < block.height; ++j)
+    for (int i = 0; i < block.width; ++i) {
+      const auto at = static_cast<std::size_t>((j + y0) * stride + i + x0), below = at + static_cast<std::size_t>(stride),
+                 above = at - static_cast<std::size_t>(stride);
+      const auto k = static_cast<std::size_t>(j * block.stride + i);
+      if (block.mask[k] * window.mask[at] * window.mask[at - 1] * window.mask[at + 1] * window.mask[above] * window.mask[below] == 0) continue;
+      const double a = static_cast<double>(block.value[k]), b = static_cast<double>(window.value[at]);
+      const Point slope(static_cast<double>(window.value[at + 1] - window.value[at - 1]) / 2,
+                        static_cast<double>(window.value[below] - window.value[above]) / 2);
+      n += 1;
+      t += a;
+      w += b;
+      tt += a * a;
+      ww += b * b;
+      tw += a * b;
+      g += slope;
+      tg += a * slope;
+      wg += b * slope;
+      gg += slope * slope.transpose();
+    }
+  if (n < 16) return false;
+  const double var_t = tt - t * t / n, var_w = ww - w * w / n, cov = tw - t * w / n;
+  if (!(var_t > 0 && var_w > 0 && cov > 0)) return false;
+  const Point cov_t = tg - t / n * g, cov_w = wg - w / n * g;
+  // d NCC / d shift = (cov(t, g) - cov(t, w) / var(w) cov(w, g)) / sqrt(var t var w): exactly 0 for identical pictures.
+  const Point ascent = (cov_t - cov / var_w * cov_w) * (var_w / cov);
+  const Eigen::Matrix2d curvature = gg - g * g.transpose() / n - cov_w * cov_w.transpose() / var_w;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(curvature);
+  step = Point::Zero();
+  for (int k = 0; k < 2; ++k)
+    if (eigen.eigenvalues()(k) > kWeakDirection * eigen.eigenvalues()(1) && eigen.eigenvalues()(1) > 0)
+      step += eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).dot(ascent) / eigen.eigenvalues()(k));
+  return step.allFinite() && step.norm() <= kMaxStep_px;
+}
+
+bool locate(const Surface& v, const Patch& block, const Patch& window, double pixel_m, double min_peak, BlockMatch& out) {
   double best = -HUGE_VAL;
   int bx = 0, by = 0;
   for (int dy = -v.s; dy <= v.s; ++dy)
@@ -161,18 +201,16 @@ bool locate(const Surface& v, double pixel_m, double min_peak, BlockMatch& out) 
   Quadratic q;
   if (!fit_quadratic(v, bx, by, q)) return false;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(-q.hessian);  // ascending; positive = falls off
-  const double strong = eigen.eigenvalues()(1);
-  if (!(strong > 0)) return false;
-  Point offset = Point::Zero();
+  if (!(eigen.eigenvalues()(1) > 0)) return false;
   Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
   for (int k = 0; k < 2; ++k) {
     const double bend = eigen.eigenvalues()(k);
     if (bend <= 0) continue;
     const Point direction = eigen.eigenvectors().col(k);
     curvature += bend * direction * direction.transpose();
-    if (bend > kWeakDirection * strong) offset += direction * (direction.dot(q.slope) / bend);
   }
-  if (!(offset.norm() <= 1.5)) return false;  // the quadratic's top lies outside the pixels it was fitted to
+  Point offset = Point::Zero();
+  if (!subpixel_step(block, window, bx + v.s, by + v.s, offset)) return false;
   const double v_peak = std::min(kMaxPeak, peak), pixel_mm = pixel_m * 1e3;
   out.ncc = peak;
   out.shift_m = (Point(bx, by) + offset) * pixel_m;
@@ -201,13 +239,17 @@ Point energy_centroid(const Patch& block) {
 BlockResult match_blocks(const Feature& green, const Feature& texture, const Feature& print, const BlockSettings& settings, int threads) {
   VENATO_EXPECTS(green.value.width == print.value.width && green.value.height == print.value.height && settings.step_m > 0);
   const double pixel = green.value.pitch_m;
-  const int half = std::max(4, static_cast<int>(std::lround(settings.half_m / pixel))), s = std::max(4, static_cast<int>(std::lround(settings.search_m / pixel)));
+  const int half = std::max(4, static_cast<int>(std::lround(settings.half_m / pixel))),
+            s = std::max(4, static_cast<int>(std::lround(settings.search_m / pixel)));
   const int columns = std::max(1, static_cast<int>(std::lround(green.value.width_m() / settings.step_m)));
   const int rows = std::max(1, static_cast<int>(std::lround(green.value.height_m() / settings.step_m)));
   const double texture_deviation = moments(texture).deviation, print_deviation = moments(print).deviation;
   const double variance_floor = 0.01 * print_deviation * print_deviation;
 
-  struct Slot { BlockMatch match; bool found = false, textured = false; };
+  struct Slot {
+    BlockMatch match;
+    bool found = false, textured = false;
+  };
   std::vector<Slot> slots(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   const int count = columns * rows;
 #pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
@@ -215,7 +257,8 @@ BlockResult match_blocks(const Feature& green, const Feature& texture, const Fea
     const int column = k % columns, row = k / columns;
     const int cx = static_cast<int>((column + 0.5) * green.value.width / columns), cy = static_cast<int>((row + 0.5) * green.value.height / rows);
     // Blocks at the rim are clipped to the slab; the measurement then belongs to the centroid of what is left.
-    const int x0 = std::max(0, cx - half), x1 = std::min(green.value.width, cx + half + 1), y0 = std::max(0, cy - half), y1 = std::min(green.value.height, cy + half + 1);
+    const int x0 = std::max(0, cx - half), x1 = std::min(green.value.width, cx + half + 1), y0 = std::max(0, cy - half),
+              y1 = std::min(green.value.height, cy + half + 1);
     const int stride = (x1 - x0 + kLanes - 1) / kLanes * kLanes;
     Patch block = cut(green, x0, y0, x1 - x0, y1 - y0, stride);
     if (!(block.mask_sum >= kMinValid * block.width * block.height)) continue;
@@ -242,7 +285,7 @@ BlockResult match_blocks(const Feature& green, const Feature& texture, const Fea
     slot.match.row = row;
     slot.match.at_m = (Point(x0, y0) + centroid) * pixel;
     slot.match.faded = faded;
-    slot.found = locate(ncc_surface(block, window, s, variance_floor), pixel, faded ? kFadedPeak : kMinPeak, slot.match);
+    slot.found = locate(ncc_surface(block, window, s, variance_floor), block, window, pixel, faded ? kFadedPeak : kMinPeak, slot.match);
   }
   BlockResult out;
   for (const Slot& slot : slots) {

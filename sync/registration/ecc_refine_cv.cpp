@@ -51,8 +51,8 @@ RefinedPose refine_affine(const Feature& green, const Feature& print, const Tran
   std::copy(print.valid.data.begin(), print.valid.data.end(), mask.data);
   try {
     // gaussFiltSize 1: OpenCV's own pre-filter reflects the border and biases the scale (registration_print.md 1.1).
-    out.ecc = cv::findTransformECC(templ, input, warp, cv::MOTION_AFFINE, cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, iterations, kEpsilon),
-                                   mask, 1);
+    out.ecc = cv::findTransformECC(templ, input, warp, cv::MOTION_AFFINE,
+                                   cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, iterations, kEpsilon), mask, 1);
   } catch (const cv::Exception&) {
     out.why_not = "affine refinement did not converge";
     return out;
@@ -82,7 +82,10 @@ RefinedPose refine_affine(const Feature& green, const Feature& print, const Tran
 
 RefinedPose refine_poses(const Features& green, const Features& print, const std::vector<PoseCandidate>& candidates, int factor_4mm,
                          const RegistrationConfig& config, bool polarity_known, int threads) {
-  struct Try { Transform start; int polarity; };
+  struct Try {
+    Transform start;
+    int polarity;
+  };
   std::vector<Try> tries;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     // The gradient and the signed feature mostly agree on the best place: refine it once.
@@ -106,7 +109,8 @@ RefinedPose refine_poses(const Features& green, const Features& print, const std
     const auto i = static_cast<std::size_t>(k);
     coarse[i] = refine_affine(green_coarse, print_coarse, tries[i].start, tries[i].polarity, kCoarseIterations, config.min_overlap);
   }
-  std::stable_sort(coarse.begin(), coarse.end(), [](const RefinedPose& l, const RefinedPose& r) { return std::pair(l.ok, l.ecc) > std::pair(r.ok, r.ecc); });
+  std::stable_sort(coarse.begin(), coarse.end(),
+                   [](const RefinedPose& l, const RefinedPose& r) { return std::pair(l.ok, l.ecc) > std::pair(r.ok, r.ecc); });
   if (!coarse.front().ok) return coarse.front();
   coarse.erase(std::find_if(coarse.begin(), coarse.end(), [](const RefinedPose& r) { return !r.ok; }), coarse.end());
   coarse.resize(std::min(coarse.size(), kFineCandidates));
@@ -119,7 +123,8 @@ RefinedPose refine_poses(const Features& green, const Features& print, const std
     const auto i = static_cast<std::size_t>(k);
     fine[i] = refine_affine(green_fine, print_fine, coarse[i].pose, coarse[i].polarity, kFineIterations, config.min_overlap);
   }
-  std::stable_sort(fine.begin(), fine.end(), [](const RefinedPose& l, const RefinedPose& r) { return std::pair(l.ok, l.ecc) > std::pair(r.ok, r.ecc); });
+  std::stable_sort(fine.begin(), fine.end(),
+                   [](const RefinedPose& l, const RefinedPose& r) { return std::pair(l.ok, l.ecc) > std::pair(r.ok, r.ecc); });
   return fine.front();
 }
 }  // namespace venato::sync

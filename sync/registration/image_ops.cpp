@@ -1,5 +1,6 @@
 #include "sync/registration/image_ops.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 #include "base/expects.h"
@@ -7,7 +8,10 @@ namespace venato::sync {
 namespace {
 
 /// Overlap lengths of destination cell [d, d + 1) * ratio with source cells.
-struct Overlap { int first = 0; std::vector<float> length; };
+struct Overlap {
+  int first = 0;
+  std::vector<float> length;
+};
 std::vector<Overlap> box_overlaps(int destination, int source, double ratio) {
   std::vector<Overlap> out(static_cast<std::size_t>(destination));
   for (int d = 0; d < destination; ++d) {

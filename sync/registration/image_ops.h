@@ -14,10 +14,17 @@ struct Feature {
 Feature resample(const Evidence& evidence, double pitch_m);
 /// Area average over factor x factor pixels; the right and bottom rim average what is there.
 Feature downsample(const Feature& f, int factor);
-/// Normalised (masked) Gaussian smoothing; sigma_px beyond 8 is done on a reduced grid.
+/// Normalised (masked) Gaussian smoothing; sigma_px beyond 8 is done on a reduced grid. Valid where f is.
 Feature smooth(const Feature& f, double sigma_px);
+/// The same, but also valid outside of f's valid pixels as far as they still carry 5 % of the weight.
+Feature smooth_and_extend(const Feature& f, double sigma_px);
+/// Takes a rim of `radius_px` off the valid area, also along the picture's border: what a one-sided Gaussian has touched.
+Feature without_rim(Feature f, int radius_px);
 /// Mean and standard deviation over valid pixels (0, 0 if there are none).
-struct Moments { double mean = 0, deviation = 0; double count = 0; };
+struct Moments {
+  double mean = 0, deviation = 0;
+  double count = 0;
+};
 Moments moments(const Feature& f);
 /// f(print_from_green(p)) on a width x height grid of f's own pitch in the green frame, Catmull-Rom in float
 /// (not cv::remap: it rounds positions to 1/32 px). Invalid where the 2 x 2 neighbourhood is not valid.

@@ -5,8 +5,8 @@
 #include "sync/registration/image_ops.h"
 namespace venato::sync {
 namespace {
-constexpr double kDirectSigma_px = 8;   // larger Gaussians are smooth enough to be computed on a coarser grid
-constexpr double kMinWeight = 0.05;     // below this share of valid neighbourhood a smoothed value would be an extrapolation
+constexpr double kDirectSigma_px = 8;  // larger Gaussians are smooth enough to be computed on a coarser grid
+constexpr double kMinWeight = 0.05;    // below this share of valid neighbourhood a smoothed value would be an extrapolation
 
 cv::Mat gaussian(const cv::Mat& m, double sigma_px) {
   cv::Mat out;
@@ -14,11 +14,8 @@ cv::Mat gaussian(const cv::Mat& m, double sigma_px) {
   cv::GaussianBlur(m, out, {size, size}, sigma_px, sigma_px, cv::BORDER_CONSTANT);  // outside = invalid = weight 0
   return out;
 }
-}  // namespace
 
-Feature smooth(const Feature& f, double sigma_px) {
-  VENATO_EXPECTS(!f.value.empty());
-  if (sigma_px <= 0) return f;
+Feature smoothed(const Feature& f, double sigma_px, bool extend) {
   const int factor = sigma_px > kDirectSigma_px ? static_cast<int>(sigma_px / (kDirectSigma_px / 2)) : 1;
   Feature small = factor > 1 ? downsample(f, factor) : f;
   cv::Mat value(small.value.height, small.value.width, CV_32F, small.value.data.data());
@@ -41,11 +38,31 @@ Feature smooth(const Feature& f, double sigma_px) {
     const auto* n = norm.ptr<float>(j);
     for (int i = 0; i < f.value.width; ++i) {
       const std::size_t k = f.value.index(i, j);
-      const bool ok = f.valid.data[k] && n[i] > kMinWeight;
+      const bool ok = (extend || f.valid.data[k]) && n[i] > kMinWeight;
       out.valid.data[k] = ok ? 255 : 0;
       out.value.data[k] = ok ? s[i] / n[i] : 0;
     }
   }
   return out;
+}
+}  // namespace
+
+Feature without_rim(Feature f, int radius_px) {
+  if (radius_px <= 0) return f;
+  cv::Mat valid(f.valid.height, f.valid.width, CV_8U, f.valid.data.data()), shrunk;
+  cv::erode(valid, shrunk, cv::getStructuringElement(cv::MORPH_RECT, {2 * radius_px + 1, 2 * radius_px + 1}), {-1, -1}, 1, cv::BORDER_CONSTANT,
+            cv::Scalar(0));
+  shrunk.copyTo(valid);
+  for (std::size_t k = 0; k < f.value.data.size(); ++k)
+    if (!f.valid.data[k]) f.value.data[k] = 0;
+  return f;
+}
+Feature smooth(const Feature& f, double sigma_px) {
+  VENATO_EXPECTS(!f.value.empty());
+  return sigma_px > 0 ? smoothed(f, sigma_px, false) : f;
+}
+Feature smooth_and_extend(const Feature& f, double sigma_px) {
+  VENATO_EXPECTS(!f.value.empty() && sigma_px > 0);
+  return smoothed(f, sigma_px, true);
 }
 }  // namespace venato::sync

@@ -4,12 +4,16 @@
 #include "base/error.h"
 namespace venato::sync {
 namespace {
-struct Level { int factor; double half_m, search_m, spacing_m, lambda; };
-constexpr Level kLevels[] = {{4, 0.096, 0.040, 0.160, 0.005}, {2, 0.064, 0.020, 0.100, 0.01}, {2, 0.048, 0.012, 0.064, 0.02}, {1, 0.028, 0.006, 0.048, 0.03}};
+struct Level {
+  int factor;
+  double half_m, search_m, spacing_m, lambda;
+};
+constexpr Level kLevels[] = {
+    {4, 0.096, 0.040, 0.160, 0.005}, {2, 0.064, 0.020, 0.100, 0.01}, {2, 0.048, 0.012, 0.064, 0.02}, {1, 0.028, 0.006, 0.048, 0.03}};
 constexpr int kPassesPerLevel = 2;
-constexpr int kSharpnessFactor = 3;       // sharpness is compared at 3 mm/px
-constexpr double kFullSize_m = 0.6;       // the table of the source was found on slabs of 0.7 m and more
-constexpr double kSmallestScale = 0.4;    // blocks of 11 mm half width: below, one vein no longer fits
+constexpr int kSharpnessFactor = 3;     // sharpness is compared at 3 mm/px
+constexpr double kFullSize_m = 0.6;     // the table of the source was found on slabs of 0.7 m and more
+constexpr double kSmallestScale = 0.4;  // blocks of 11 mm half width: below, one vein no longer fits
 constexpr double kRobust_m = 0.0015;
 constexpr double kMinJacobian = 0.5, kMaxJacobian = 2;
 constexpr int kMaxDoublings = 3;
@@ -17,7 +21,7 @@ constexpr int kMaxDoublings = 3;
 constexpr double kTextureSmoothing_m = 0.003;
 // Powder spreads a vein by some mm, the graphic is sharp: unequal sharpness biases the peaks of curved veins by 1-2 mm (measured at 8 mm).
 constexpr double kBlurs_m[] = {0.002, 0.003, 0.004, 0.006, 0.008, 0.011, 0.015};
-constexpr double kBlurGain = 0.01;        // smoothing the slab always gains a little by removing noise: ask for more than that
+constexpr double kBlurGain = 0.01;  // smoothing the slab always gains a little by removing noise: ask for more than that
 
 double ncc(const Feature& a, const Feature& b) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
@@ -36,7 +40,9 @@ double ncc(const Feature& a, const Feature& b) {
 }
 
 /// How much more the print (or the slab) must be smoothed so that both are equally sharp.
-struct Sharpness { double blur_print_m = 0, blur_green_m = 0; };
+struct Sharpness {
+  double blur_print_m = 0, blur_green_m = 0;
+};
 Sharpness equal_sharpness(const Feature& green, const Feature& warped) {
   Sharpness best;
   const double pixel = green.value.pitch_m, plain = ncc(green, warped);

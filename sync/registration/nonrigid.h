@@ -8,13 +8,13 @@ namespace venato::sync {
 
 struct NonrigidResult {
   Transform map;
-  bool folded = false;                   ///< still folding after lambda was doubled three times
+  bool folded = false;  ///< still folding after lambda was doubled three times
   JacobianRange jacobian;
-  std::vector<BlockMatch> blocks;        ///< of the last pass, relative to the map they were measured with
-  std::vector<Observation> observations; ///< the same blocks as total displacements
-  std::vector<bool> held_out;            ///< every 5th block: not used by `map_without_held_out`
-  BSplineField held_out_field;           ///< fitted without the held-out blocks
-  int textured = 0;                      ///< blocks of the last pass that ought to have matched
+  std::vector<BlockMatch> blocks;             ///< of the last pass, relative to the map they were measured with
+  std::vector<Observation> observations;      ///< the same blocks as total displacements
+  std::vector<bool> held_out;                 ///< every 5th block: not used by `map_without_held_out`
+  BSplineField held_out_field;                ///< fitted without the held-out blocks
+  int textured = 0;                           ///< blocks of the last pass that ought to have matched
   double blur_print_m = 0, blur_green_m = 0;  ///< extra smoothing of the last level that made both sides equally sharp
   BlockSettings last_level;
   Eigen::SparseMatrix<double> normal_matrix;

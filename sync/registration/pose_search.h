@@ -5,12 +5,12 @@ namespace venato::sync {
 
 /// One place where the slab might lie in the graphic.
 struct PoseCandidate {
-  Transform pose;          ///< affine part only
-  double score = 0;        ///< |masked NCC| * sqrt(overlap share): what candidates are ranked by
-  double ncc = 0;          ///< masked NCC, signed
-  double overlap = 0;      ///< share of the valid slab inside the valid graphic
+  Transform pose;      ///< affine part only
+  double score = 0;    ///< |masked NCC| * sqrt(overlap share): what candidates are ranked by
+  double ncc = 0;      ///< masked NCC, signed
+  double overlap = 0;  ///< share of the valid slab inside the valid graphic
   bool from_gradient = false;
-  int turn = 0;            ///< flip * 4 + quarter turns
+  int turn = 0;  ///< flip * 4 + quarter turns
 };
 struct PoseSearch {
   std::vector<PoseCandidate> candidates;  ///< best first per feature, at most `keep` each, distinct places

@@ -6,7 +6,7 @@
 #include "sync/registration/pose_search.h"
 namespace venato::sync {
 namespace {
-constexpr double kDistinct_m = 0.060;   // candidates nearer than this are the same place (registration_print.md 1.5 T2)
+constexpr double kDistinct_m = 0.060;  // candidates nearer than this are the same place (registration_print.md 1.5 T2)
 constexpr int kPeaksPerPose = 6;
 constexpr double kMinVarianceShare = 0.02;  // of the whole picture's variance: below it the overlap shows no veins and NCC is noise
 
@@ -41,10 +41,15 @@ cv::Mat correlate(const cv::Mat& fixed, const cv::Mat& moving) {  // c(d) = sum_
   cv::dft(out, out, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
   return out;
 }
-struct Spectra { cv::Mat value, square, mask; };
+struct Spectra {
+  cv::Mat value, square, mask;
+};
 
 /// The slab feature seen in the print's orientation: out(q) = green(A^-1 (q + corner)).
-struct Turned { Feature feature; Point corner_m; };
+struct Turned {
+  Feature feature;
+  Point corner_m;
+};
 Turned turn(const Feature& green, const Eigen::Matrix2d& a) {
   const double pitch = green.value.pitch_m, w = green.value.width_m(), h = green.value.height_m();
   Point lo(HUGE_VAL, HUGE_VAL), hi(-HUGE_VAL, -HUGE_VAL);
@@ -60,7 +65,10 @@ Turned turn(const Feature& green, const Eigen::Matrix2d& a) {
   return {warp_to_green(green, green_from_turned, static_cast<int>(std::ceil(size.x())), static_cast<int>(std::ceil(size.y())), 1), lo};
 }
 
-struct Pose { Eigen::Matrix2d a; int turn; };
+struct Pose {
+  Eigen::Matrix2d a;
+  int turn;
+};
 std::vector<Pose> poses(const RegistrationConfig& config) {
   std::vector<Pose> out;
   const int steps = config.rotation_step_rad > 0 ? static_cast<int>(std::floor(config.max_rotation_rad / config.rotation_step_rad + 1e-6)) : 0;
@@ -80,10 +88,14 @@ std::vector<Pose> poses(const RegistrationConfig& config) {
   return out;
 }
 
-struct Peak { double score, ncc, overlap; Point t; Point centre; };
+struct Peak {
+  double score, ncc, overlap;
+  Point t;
+  Point centre;
+};
 
-std::vector<Peak> peaks(const cv::Mat& score, const cv::Mat& ncc, const cv::Mat& overlap, cv::Size moving, cv::Size fixed, double pitch, const Turned& turned,
-                        Point slab_centre) {
+std::vector<Peak> peaks(const cv::Mat& score, const cv::Mat& ncc, const cv::Mat& overlap, cv::Size moving, cv::Size fixed, double pitch,
+                        const Turned& turned, Point slab_centre) {
   std::vector<Peak> out;
   cv::Mat work = score.clone();
   const int radius = std::max(1, static_cast<int>(std::lround(kDistinct_m / pitch)));
@@ -111,10 +123,11 @@ std::vector<Peak> peaks(const cv::Mat& score, const cv::Mat& ncc, const cv::Mat&
 }
 
 /// Masked NCC map of one feature; `n` is the overlap count map.
-void masked_ncc(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, double full_count, double min_overlap, bool positive_only, cv::Mat& ncc,
-                cv::Mat& score, cv::Mat& overlap) {
-  const cv::Mat cross = correlate(fixed.value, moving.value), sum_f = correlate(fixed.value, moving.mask), sum_ff = correlate(fixed.square, moving.mask),
-                sum_m = correlate(fixed.mask, moving.value), sum_mm = correlate(fixed.mask, moving.square);
+void masked_ncc(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, double full_count, double min_overlap, bool positive_only,
+                cv::Mat& ncc, cv::Mat& score, cv::Mat& overlap) {
+  const cv::Mat cross = correlate(fixed.value, moving.value), sum_f = correlate(fixed.value, moving.mask),
+                sum_ff = correlate(fixed.square, moving.mask), sum_m = correlate(fixed.mask, moving.value),
+                sum_mm = correlate(fixed.mask, moving.square);
   ncc = cv::Mat::zeros(n.size(), CV_32F);
   score = cv::Mat::zeros(n.size(), CV_32F);
   overlap = cv::Mat::zeros(n.size(), CV_32F);
@@ -135,7 +148,10 @@ void masked_ncc(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, d
     }
 }
 
-struct Found { Peak peak; std::size_t pose; };
+struct Found {
+  Peak peak;
+  std::size_t pose;
+};
 
 double pick(std::vector<Found>& found, const std::vector<Pose>& all, int keep, bool gradient, std::vector<PoseCandidate>& out) {
   std::stable_sort(found.begin(), found.end(), [](const Found& l, const Found& r) { return l.peak.score > r.peak.score; });

@@ -72,15 +72,17 @@ double SelectedInverse::at(int i, int j) const {
   return z_.valuePtr()[k];
 }
 
-graphics::RasterF sigma_map(const BSplineField& u, const Eigen::SparseMatrix<double>& normal_lower, double unit_variance, double width_m, double height_m,
-                            double pitch_m, int threads) {
+graphics::RasterF sigma_map(const BSplineField& u, const Eigen::SparseMatrix<double>& normal_lower, double unit_variance, double width_m,
+                            double height_m, double pitch_m, int threads) {
   const SelectedInverse inverse(normal_lower);
-  const int w = std::max(1, static_cast<int>(std::ceil(width_m / pitch_m - 1e-9))), h = std::max(1, static_cast<int>(std::ceil(height_m / pitch_m - 1e-9)));
+  const int w = std::max(1, static_cast<int>(std::ceil(width_m / pitch_m - 1e-9))),
+            h = std::max(1, static_cast<int>(std::ceil(height_m / pitch_m - 1e-9)));
   graphics::RasterF out(w, h, 1, pitch_m);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
-      const SplineCell x = spline_cell(((i + 0.5) * pitch_m - u.origin_m.x()) / u.spacing_m, u.nx), y = spline_cell(((j + 0.5) * pitch_m - u.origin_m.y()) / u.spacing_m, u.ny);
+      const SplineCell x = spline_cell(((i + 0.5) * pitch_m - u.origin_m.x()) / u.spacing_m, u.nx),
+                       y = spline_cell(((j + 0.5) * pitch_m - u.origin_m.y()) / u.spacing_m, u.ny);
       int node[16];
       double weight[16], variance = 0;
       for (int k = 0; k < 16; ++k) {
@@ -89,7 +91,8 @@ graphics::RasterF sigma_map(const BSplineField& u, const Eigen::SparseMatrix<dou
       }
       for (int k = 0; k < 16; ++k)
         for (int l = 0; l <= k; ++l)
-          variance += (k == l ? 1 : 2) * weight[k] * weight[l] * (inverse.at(2 * node[k], 2 * node[l]) + inverse.at(2 * node[k] + 1, 2 * node[l] + 1));
+          variance +=
+              (k == l ? 1 : 2) * weight[k] * weight[l] * (inverse.at(2 * node[k], 2 * node[l]) + inverse.at(2 * node[k] + 1, 2 * node[l] + 1));
       out.at(i, j) = static_cast<float>(std::sqrt(std::max(0.0, variance * unit_variance)) / kMm);
     }
   return out;

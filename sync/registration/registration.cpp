@@ -7,19 +7,21 @@
 #include "sync/registration/gates.h"
 namespace venato::sync {
 namespace {
-constexpr double kPitch_m = 0.001;            // registration_print.md 0: features at 1 px/mm, never at print resolution
-constexpr double kMaxPixels = 2.5e7;          // 5 m x 5 m at 1 mm; larger pictures get a coarser grid
-constexpr double kSmallSlab_m = 1.0;          // below: 4 mm poses, else 6 mm
+constexpr double kPitch_m = 0.001;    // registration_print.md 0: features at 1 px/mm, never at print resolution
+constexpr double kMaxPixels = 2.5e7;  // 5 m x 5 m at 1 mm; larger pictures get a coarser grid
+constexpr double kSmallSlab_m = 1.0;  // below: 4 mm poses, else 6 mm
 constexpr double kMinContrastFraction = 0.004, kMinContrastLightness = 0.0015;  // standard deviation that still is a picture of veins
-constexpr double kMinIsotropy = 0.02;         // structure tensor; straight stripes have < 0.01
-constexpr double kMinSide_m = 0.08;           // two of the smallest blocks
+constexpr double kMinIsotropy = 0.02;                                           // structure tensor; straight stripes have < 0.01
+constexpr double kMinSide_m = 0.08;                                             // two of the smallest blocks
 constexpr int kKeepPerFeature = 3;
 
 void check_side(const Evidence& e, const char* name) {
+  if (e.value.empty()) return;  // no error of the caller: reported as a result
   const std::string who = std::string("registration, ") + name + ": ";
   if (e.value.channels != 1) throw UsageError(who + "evidence must have 1 channel, has " + std::to_string(e.value.channels));
   if (!(e.value.pitch_m > 0) || !std::isfinite(e.value.pitch_m)) throw UsageError(who + "pitch must be positive and finite (metres per pixel)");
-  if (e.value.data.size() != static_cast<std::size_t>(e.value.width) * static_cast<std::size_t>(e.value.height)) throw UsageError(who + "data size does not match width x height");
+  if (e.value.data.size() != static_cast<std::size_t>(e.value.width) * static_cast<std::size_t>(e.value.height))
+    throw UsageError(who + "data size does not match width x height");
   if (!e.valid.empty() && (e.valid.width != e.value.width || e.valid.height != e.value.height || e.valid.channels != 1))
     throw UsageError(who + "the validity mask must have the size of the evidence");
 }
@@ -58,6 +60,13 @@ Transform prepend(const Transform& prior, const Transform& e, double width_m, do
   out.u = fit_spline(samples, moved, {1e-4, 1.0, 1}).u;
   return out;
 }
+/// Pixels of the print that lie on the valid slab under an affine map (a prior's small field does not matter for a 40 mm background).
+graphics::Raster8 footprint(const Feature& print, const Feature& green, const Transform& pose) {
+  Transform green_from_print;
+  green_from_print.a = pose.a.inverse();
+  green_from_print.t = -(green_from_print.a * pose.t);
+  return warp_to_green(green, green_from_print, print.value.width, print.value.height, 1).valid;
+}
 }  // namespace
 
 Registration register_veins(const Evidence& green, const Evidence& print, const RegistrationConfig& config, const std::optional<Transform>& prior,
@@ -71,7 +80,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
       return out;
     }
   const bool as_picture = green.kind == EvidenceKind::picture || print.kind == EvidenceKind::picture, polarity_known = !as_picture;
-  const double pixels = std::max(green.value.width_m() * green.value.height_m(), print.value.width_m() * print.value.height_m()) / (kPitch_m * kPitch_m);
+  const double pixels =
+      std::max(green.value.width_m() * green.value.height_m(), print.value.width_m() * print.value.height_m()) / (kPitch_m * kPitch_m);
   const double pitch = kPitch_m * std::max(1.0, std::sqrt(pixels / kMaxPixels));
 
   context.progress.begin("registration", 4, "steps");
@@ -90,8 +100,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   for (const auto& [f, name] : {std::pair(&green_features, "slab"), std::pair(&print_features, "graphic")}) {
     if (!(f->isotropy >= kMinIsotropy)) {
       fail(out, {"T7", f->isotropy, kMinIsotropy, false, "weak / strong direction of the veins"},
-           std::string(name) + text(" veins all run along (%.2f, %.2f): ", f->weak_direction.x(), f->weak_direction.y()) + "a shift that way cannot be observed" +
-               text(" (isotropy %.4f < %.4f)", f->isotropy, kMinIsotropy));
+           std::string(name) + text(" veins all run along (%.2f, %.2f): ", f->weak_direction.x(), f->weak_direction.y()) +
+               "a shift that way cannot be observed" + text(" (isotropy %.4f < %.4f)", f->isotropy, kMinIsotropy));
       context.progress.end();
       return out;
     }
@@ -100,7 +110,9 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   context.progress.at(1);
 
   const int factor_4mm = std::max(1, static_cast<int>(std::lround(0.004 / pitch)));
-  const double coarse = config.coarse_pitch_m > 0 ? config.coarse_pitch_m : std::min(green.value.width_m(), green.value.height_m()) < kSmallSlab_m ? 0.004 : 0.006;
+  const double coarse = config.coarse_pitch_m > 0                                                ? config.coarse_pitch_m
+                        : std::min(green.value.width_m(), green.value.height_m()) < kSmallSlab_m ? 0.004
+                                                                                                 : 0.006;
   PoseSearch search;
   if (prior) {
     // A predicted map names the place; only what ECC can correct is left open.
@@ -108,7 +120,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
     search.candidates.push_back(c);
     search.gradient_peak_ratio = search.signed_peak_ratio = 10;
   } else {
-    search = search_poses(green_features, print_features, std::max(1, static_cast<int>(std::lround(coarse / pitch))), config, polarity_known, kKeepPerFeature, context.threads);
+    search = search_poses(green_features, print_features, std::max(1, static_cast<int>(std::lround(coarse / pitch))), config, polarity_known,
+                          kKeepPerFeature, context.threads);
   }
   if (context.stop_requested()) throw Interrupted("registration stopped");
   context.progress.at(2);
@@ -125,7 +138,7 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   context.progress.at(3);
 
   const Transform start = prior ? prepend(*prior, pose.pose, width * pitch, height * pitch) : pose.pose;
-  Feature print_signed = print_features.signed_evidence;
+  Feature print_signed = as_picture ? band_pass(print_base, grain, footprint(print_base, green_base, start)) : print_features.signed_evidence;
   if (pose.polarity < 0)
     for (float& v : print_signed.value.data) v = -v;
   const NonrigidResult fit = fit_nonrigid(green_features.signed_evidence, print_signed, start, context);
@@ -134,7 +147,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   out.print_from_green = fit.map;
   if (fit.folded) {
     fail(out, {"T5 folds", fit.jacobian.min, 0.5, false, "smallest Jacobian"},
-         text("the displacement folds (Jacobian %.2f to %.2f, allowed 0.5 to 2) even with eight times the stiffness", fit.jacobian.min, fit.jacobian.max));
+         text("the displacement folds (Jacobian %.2f to %.2f, allowed 0.5 to 2) even with eight times the stiffness", fit.jacobian.min,
+              fit.jacobian.max));
   } else {
     judge(green_features, search, pose, fit, print_signed, config, start.u, context.threads, out);
   }

@@ -9,12 +9,17 @@
 namespace venato::sync {
 namespace {
 constexpr double kMm = 1e3;
-// Ridge on every coefficient [1/mm^2]: keeps the matrix definite where no block speaks. Against data of weight ~1 it pulls a 10 mm displacement by 1 um.
+// Ridge on every coefficient [1/mm^2]: keeps the matrix definite where no block speaks. Against data of weight ~1 it pulls a 10 mm displacement by 1
+// um.
 constexpr double kRidge = 1e-4;
 
-struct Footprint { std::array<int, 16> node; std::array<double, 16> weight; };
+struct Footprint {
+  std::array<int, 16> node;
+  std::array<double, 16> weight;
+};
 Footprint footprint(const BSplineField& grid, Point p) {
-  const SplineCell x = spline_cell((p.x() - grid.origin_m.x()) / grid.spacing_m, grid.nx), y = spline_cell((p.y() - grid.origin_m.y()) / grid.spacing_m, grid.ny);
+  const SplineCell x = spline_cell((p.x() - grid.origin_m.x()) / grid.spacing_m, grid.nx),
+                   y = spline_cell((p.y() - grid.origin_m.y()) / grid.spacing_m, grid.ny);
   Footprint f;
   for (std::size_t r = 0; r < 4; ++r)
     for (std::size_t c = 0; c < 4; ++c) {
@@ -27,7 +32,8 @@ Footprint footprint(const BSplineField& grid, Point p) {
 /// Symmetric 2 x 2-block matrix on the control grid whose blocks couple nodes at most 3 apart in x and y.
 class StencilMatrix {
  public:
-  explicit StencilMatrix(const BSplineField& grid) : nx_(grid.nx), nodes_(grid.nx * grid.ny), block_(static_cast<std::size_t>(nodes_) * kOffsets, Eigen::Matrix2d::Zero()) {}
+  explicit StencilMatrix(const BSplineField& grid)
+      : nx_(grid.nx), nodes_(grid.nx * grid.ny), block_(static_cast<std::size_t>(nodes_) * kOffsets, Eigen::Matrix2d::Zero()) {}
   void add(int k, int l, const Eigen::Matrix2d& m) { block_[slot(k, l)] += m; }
   Eigen::SparseMatrix<double> lower() const {
     Eigen::SparseMatrix<double> out(2 * nodes_, 2 * nodes_);

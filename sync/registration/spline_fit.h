@@ -7,13 +7,13 @@ namespace venato::sync {
 
 /// One measured displacement and how well each direction of it is known.
 struct Observation {
-  Point at_m;                   ///< green frame
+  Point at_m;  ///< green frame
   Point displacement_m;
   Eigen::Matrix2d information;  ///< [1/mm^2] symmetric, >= 0; a straight vein has rank 1: the aperture problem is represented, not hidden
 };
 struct FitSettings {
-  double lambda = 0.03;         ///< weight of the bending of the coefficients [mm^2]
-  double robust_m = 0.0015;     ///< residuals beyond this lose weight: 1 / (1 + (m / robust)^2)
+  double lambda = 0.03;      ///< weight of the bending of the coefficients [mm^2]
+  double robust_m = 0.0015;  ///< residuals beyond this lose weight: 1 / (1 + (m / robust)^2)
   int rounds = 4;
 };
 struct FitResult {

@@ -6,8 +6,8 @@
 #include "sync/score/distance.h"
 namespace venato::sync {
 namespace {
-constexpr int kDirectionSteps = 5;    // skeleton pixels each way that give the direction: two vein widths of a thin vein
-constexpr int kAverageSteps = 2;      // each way: averages the staircase of a binary edge
+constexpr int kDirectionSteps = 5;  // skeleton pixels each way that give the direction: two vein widths of a thin vein
+constexpr int kAverageSteps = 2;    // each way: averages the staircase of a binary edge
 constexpr double kProfileStep_px = 0.25;
 constexpr double kSpurMargin_px = 1.5;
 
@@ -107,26 +107,33 @@ graphics::RasterF softened(const graphics::Raster8& mask) {
   return out;
 }
 
-struct Centre { Point px; double width_px = 0; };
+struct Centre {
+  Point px;
+  double width_px = 0;
+};
 
 /// Middle between the two half-height edges across the vein.
 Centre middle(const graphics::RasterF& soft, Point px, Point normal, double reach_px) {
   const double half = 0.5 * std::min(1.0, bilinear(soft, px));
   double edge[2] = {0, 0};
+  double area = 0;  // of the profile = width of the vein, which the smoothing leaves alone
   for (int side = 0; side < 2; ++side) {
     const double sign = side == 0 ? -1 : 1;
     double before = bilinear(soft, px);
     edge[side] = sign * reach_px;
+    bool outside = false;
     for (double r = kProfileStep_px; r <= reach_px; r += kProfileStep_px) {
       const double value = bilinear(soft, px + sign * r * normal);
-      if (value < half) {
+      if (outside && value > before) break;  // the next vein begins
+      area += kProfileStep_px * (value + before) / 2;
+      if (!outside && value < half) {
         edge[side] = sign * (r - kProfileStep_px * (half - value) / (before - value));
-        break;
+        outside = true;
       }
       before = value;
     }
   }
-  return {px + 0.5 * (edge[0] + edge[1]) * normal, edge[1] - edge[0]};
+  return {px + 0.5 * (edge[0] + edge[1]) * normal, area};
 }
 }  // namespace
 
@@ -167,7 +174,8 @@ std::vector<CentreLink> centre_links(const graphics::Raster8& mask, double min_w
       const Centre &a = averaged[n], &b = averaged[static_cast<std::size_t>(m)];
       const double width_m = (a.width_px + b.width_px) / 2 * mask.pitch_m;
       if (width_m < min_width_m) continue;
-      out.push_back({(a.px + half) * mask.pitch_m, (b.px + half) * mask.pitch_m, (pixel(static_cast<int>(n)) - pixel(m)).norm() * mask.pitch_m, width_m});
+      out.push_back(
+          {(a.px + half) * mask.pitch_m, (b.px + half) * mask.pitch_m, (pixel(static_cast<int>(n)) - pixel(m)).norm() * mask.pitch_m, width_m});
     }
   return out;
 }

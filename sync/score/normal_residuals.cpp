@@ -41,7 +41,8 @@ class LinkGrid {
 double cross(Point a, Point b) { return a.x() * b.y() - a.y() * b.x(); }
 }  // namespace
 
-std::vector<NormalResidual> normal_residuals(const std::vector<CentreLink>& lines, const std::vector<CentreLink>& partners, const ScoreConfig& config) {
+std::vector<NormalResidual> normal_residuals(const std::vector<CentreLink>& lines, const std::vector<CentreLink>& partners,
+                                             const ScoreConfig& config) {
   VENATO_EXPECTS(config.search_m > 0 && config.sample_step_m > 0);
   std::vector<NormalResidual> out;
   LinkGrid grid(partners, std::max(1e-3, config.search_m / 4));

@@ -87,8 +87,9 @@ Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& prin
   const double both = count_both(body, print), n_body = count(body), n_print = count(print);
   m.dice = ratio(2 * both, n_body + n_print);
   m.iou = ratio(both, n_body + n_print - both);
-  const graphics::Raster8 thin_body = skeleton(body), thin_print = skeleton(print);
-  const double precision = ratio(count_both(thin_print, body), count(thin_print)), sensitivity = ratio(count_both(thin_body, print), count(thin_body));
+  const graphics::Raster8 thin_body = zhang_suen(body), thin_print = zhang_suen(print);
+  const double precision = ratio(count_both(thin_print, body), count(thin_print)),
+               sensitivity = ratio(count_both(thin_body, print), count(thin_body));
   m.cl_dice = ratio(2 * precision * sensitivity, precision + sensitivity);
   boundary_metrics(body, print, m);
 
@@ -121,8 +122,10 @@ std::vector<ResidualSample> centreline_residuals(const graphics::Raster8& body, 
   return out;
 }
 
-graphics::Raster8 mask_on_green(const graphics::RasterF& print_fraction, const Transform& print_from_green, int width, int height, double pitch_m, float threshold) {
-  if (print_fraction.channels != 1 || !(print_fraction.pitch_m > 0)) throw UsageError("mask_on_green: the print must have 1 channel and a positive pitch");
+graphics::Raster8 mask_on_green(const graphics::RasterF& print_fraction, const Transform& print_from_green, int width, int height, double pitch_m,
+                                float threshold) {
+  if (print_fraction.channels != 1 || !(print_fraction.pitch_m > 0))
+    throw UsageError("mask_on_green: the print must have 1 channel and a positive pitch");
   if (width < 0 || height < 0 || !(pitch_m > 0)) throw UsageError("mask_on_green: the green grid must have a size and a positive pitch");
   graphics::Raster8 out(width, height, 1, pitch_m);
   const int w = print_fraction.width, h = print_fraction.height;

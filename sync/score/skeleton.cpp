@@ -1,11 +1,16 @@
 #include <array>
 #include <vector>
 #include "base/expects.h"
+#include "sync/score/distance.h"
 #include "sync/score/score.h"
 namespace venato::sync {
+namespace {
+// P2..P9 of the paper: north, then clockwise.
+std::array<std::ptrdiff_t, 8> neighbours(int w) { return {-w, -w + 1, 1, w + 1, w, w - 1, -1, -w - 1}; }
+}  // namespace
 
-/// Source: T. Y. Zhang & C. Y. Suen, Comm. ACM 27 (1984) 236; staircase removal after C. M. Holt et al., Comm. ACM 30 (1987) 156. Pixels beyond the image count as empty.
-graphics::Raster8 skeleton(const graphics::Raster8& mask) {
+/// Source: T. Y. Zhang & C. Y. Suen, Comm. ACM 27 (1984) 236. Pixels beyond the image count as empty.
+graphics::Raster8 zhang_suen(const graphics::Raster8& mask) {
   VENATO_EXPECTS(mask.channels == 1);
   // A frame of zeros around the picture: no neighbour needs a test.
   const int w = mask.width + 2, h = mask.height + 2;
@@ -18,8 +23,7 @@ graphics::Raster8 skeleton(const graphics::Raster8& mask) {
         p[k] = 1;
         alive.push_back(k);
       }
-  // P2..P9 of the paper: north, then clockwise.
-  const std::array<std::ptrdiff_t, 8> around = {-w, -w + 1, 1, w + 1, w, w - 1, -1, -w - 1};
+  const std::array<std::ptrdiff_t, 8> around = neighbours(w);
   for (bool changed = true; changed;) {
     changed = false;
     for (int step = 0; step < 2; ++step) {
@@ -47,21 +51,33 @@ graphics::Raster8 skeleton(const graphics::Raster8& mask) {
       alive.swap(next);
     }
   }
-  // Zhang-Suen leaves staircases two pixels thick on oblique lines: take out corners whose two sides touch diagonally anyway.
-  for (const std::size_t k : alive) {
-    const auto at = [&](std::size_t a) { return p[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + around[a % 8])] != 0; };
-    for (std::size_t a = 0; a < 8; a += 2) {
-      const bool corner = at(a) && at(a + 2) && !at(a + 1) && !at(a + 5) && !(at(a + 4) && at(a + 6));
-      const bool keeps_others = (!at(a + 4) || at(a + 3)) && (!at(a + 6) || at(a + 7)) && (!at(a + 3) || at(a + 2)) && (!at(a + 7) || at(a));
-      if (corner && keeps_others) {
-        p[k] = 0;
-        break;
-      }
-    }
-  }
   graphics::Raster8 out(mask.width, mask.height, 1, mask.pitch_m);
   for (const std::size_t k : alive)
-    if (p[k]) out.at(static_cast<int>(k % static_cast<std::size_t>(w)) - 1, static_cast<int>(k / static_cast<std::size_t>(w)) - 1) = 255;
+    out.at(static_cast<int>(k % static_cast<std::size_t>(w)) - 1, static_cast<int>(k / static_cast<std::size_t>(w)) - 1) = 255;
+  return out;
+}
+
+graphics::Raster8 skeleton(const graphics::Raster8& mask) {
+  graphics::Raster8 out = zhang_suen(mask);
+  // Zhang-Suen leaves staircases two pixels thick on oblique lines: take out corners whose two sides touch diagonally anyway.
+  // Source: after C. M. Holt et al., Comm. ACM 30 (1987) 156.
+  static constexpr std::array<int, 8> dx = {0, 1, 1, 1, 0, -1, -1, -1}, dy = {-1, -1, 0, 1, 1, 1, 0, -1};
+  for (int j = 0; j < out.height; ++j)
+    for (int i = 0; i < out.width; ++i) {
+      if (!out.at(i, j)) continue;
+      const auto at = [&](std::size_t a) {
+        const int x = i + dx[a % 8], y = j + dy[a % 8];
+        return x >= 0 && y >= 0 && x < out.width && y < out.height && out.at(x, y);
+      };
+      for (std::size_t a = 0; a < 8; a += 2) {
+        const bool corner = at(a) && at(a + 2) && !at(a + 1) && !at(a + 5) && !(at(a + 4) && at(a + 6));
+        const bool keeps_others = (!at(a + 4) || at(a + 3)) && (!at(a + 6) || at(a + 7)) && (!at(a + 3) || at(a + 2)) && (!at(a + 7) || at(a));
+        if (corner && keeps_others) {
+          out.at(i, j) = 0;
+          break;
+        }
+      }
+    }
   return out;
 }
 }  // namespace venato::sync

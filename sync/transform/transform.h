@@ -9,11 +9,11 @@ using Point = Eigen::Vector2d;  ///< metres; x across, y along, origin top-left 
 /// Outside of it the position is clamped to the rectangle first (constant continuation), so that no evaluation can explode.
 struct BSplineField {
   Point origin_m = Point::Zero();
-  double spacing_m = 0;                 ///< 0 = no displacement
-  int nx = 0, ny = 0;                   ///< control points
-  std::vector<double> cx, cy;           ///< [ny][nx] metres
+  double spacing_m = 0;        ///< 0 = no displacement
+  int nx = 0, ny = 0;          ///< control points
+  std::vector<double> cx, cy;  ///< [ny][nx] metres
   Point displacement(Point p) const;
-  Eigen::Matrix2d gradient(Point p) const;   ///< d displacement / d position; 0 across an edge that the position was clamped to
+  Eigen::Matrix2d gradient(Point p) const;  ///< d displacement / d position; 0 across an edge that the position was clamped to
 };
 /// Field of zeros whose rectangle covers [0, width_m] x [0, height_m] with the given control point spacing. \pre all > 0
 BSplineField make_zero_field(double width_m, double height_m, double spacing_m);
@@ -35,6 +35,8 @@ struct Transform {
 /// Smallest and largest Jacobian determinant of p -> p + u(p) on a grid of `step_m` over [0, width_m] x [0, height_m].
 /// All four combinations of forward and backward differences are taken: the central difference misses chequerboard folds.
 /// The map does not fold on the grid if min > 0. Source: Liu et al., IJCV 2024 (arXiv 2212.06060).
-struct JacobianRange { double min = 1, max = 1; };
+struct JacobianRange {
+  double min = 1, max = 1;
+};
 JacobianRange jacobian_range(const BSplineField& u, double width_m, double height_m, double step_m);
 }  // namespace venato::sync

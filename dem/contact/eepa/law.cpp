@@ -15,7 +15,14 @@ Eepa make_eepa(const MaterialTable& table, const EepaParameters& q, int a, int b
   if (q.exponent != 1 && q.exponent != 1.5) throw UsageError("eepa: exponent = " + std::to_string(q.exponent) + " is neither 1 nor 1.5");
   const EffectiveModuli m = effective_moduli(table.materials[static_cast<std::size_t>(a)], table.materials[static_cast<std::size_t>(b)]);
   const PairProperties& p = table.pair(a, b);
-  return {m.young_pa, q.stiffness_ratio_k2_k1, q.adhesion_ratio_kadh_k1, q.exponent == 1 ? 1.0 : 0.0, q.constant_force_n,
-          textbook_damping(p.restitution), p.sliding_friction, p.rolling_friction, p.rolling_damping_ratio};
+  return {m.young_pa,
+          q.stiffness_ratio_k2_k1,
+          q.adhesion_ratio_kadh_k1,
+          q.exponent == 1 ? 1.0 : 0.0,
+          q.constant_force_n,
+          textbook_damping(p.restitution),
+          p.sliding_friction,
+          p.rolling_friction,
+          p.rolling_damping_ratio};
 }
 }  // namespace venato::dem

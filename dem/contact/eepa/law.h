@@ -21,13 +21,13 @@ namespace venato::dem {
 struct Eepa {
   static constexpr std::string_view name = "eepa";
   static constexpr int parameter_count = 9;
-  double young_eff;                     ///< [Pa]
-  double k2_ratio, k_adh_ratio;         ///< [-] k2/k1 >= 1, k_adh/k1 >= 0
-  double linear;                        ///< 1: n = 1; 0: n = 1.5
-  double constant_force;                ///< [N] f0, < 0 pulls
-  double beta, friction, rolling_friction, rolling_damping;   ///< [-]
+  double young_eff;                                          ///< [Pa]
+  double k2_ratio, k_adh_ratio;                              ///< [-] k2/k1 >= 1, k_adh/k1 >= 0
+  double linear;                                             ///< 1: n = 1; 0: n = 1.5
+  double constant_force;                                     ///< [N] f0, < 0 pulls
+  double beta, friction, rolling_friction, rolling_damping;  ///< [-]
 
-  static constexpr double kReferenceStrain = 0.01;   ///< d_ref / R* of the linear variant
+  static constexpr double kReferenceStrain = 0.01;  ///< d_ref / R* of the linear variant
 
   /// k1 in N/m^n.
   VENATO_KERNEL double loading_stiffness(double r_eff) const {
@@ -45,7 +45,9 @@ struct Eepa {
     return f;
   }
 
-  struct Stiffness { double k1, radius, normal, tangential, rolling; };
+  struct Stiffness {
+    double k1, radius, normal, tangential, rolling;
+  };
   VENATO_KERNEL Stiffness stiffness(const ContactGeometry& g, double radius) const {
     const double k1 = loading_stiffness(g.r_eff), k_n = k1 * radius, arm = rolling_friction * g.r_eff;
     return {k1, radius, k_n, 2.0 / 7.0 * k_n, kEpsdStiffness * k_n * arm * arm};
@@ -85,8 +87,8 @@ struct Eepa {
     const SpringLoss t = spring_loss(before.spring, after.spring, f.tangential, g, ratio, g.slide, old.tangential, k.tangential, dt);
     const SpringLoss r = spring_loss(before.rolling, after.rolling, f.rolling, g, ratio, g.roll, old.rolling, k.rolling, dt);
     const double step = g.approach * dt, earlier = g.overlap - step > 0 ? g.overlap - step : 0.0;
-    // Work of the hysteretic force (trapezoid; f = k2 (d^n - dp^n) holds on every branch once dp is updated) less what stays recoverable, plus damping;
-    // f0 counts as work of the contact.
+    // Work of the hysteretic force (trapezoid; f = k2 (d^n - dp^n) holds on every branch once dp is updated) less what stays recoverable, plus
+    // damping; f0 counts as work of the contact.
     const double stored = recoverable(k2, g.overlap, after.plastic) - recoverable(k2, earlier, before.plastic);
     const double f_before = k2 * (overlap_power(earlier) - before.plastic), f_after = k2 * (overlap_power(g.overlap) - after.plastic);
     return {0.5 * (f_before + f_after) * step - stored + (f.normal - f_after) * step, t.damping, t.plastic, r.plastic + r.damping};

@@ -17,12 +17,14 @@ namespace venato::dem {
 struct HertzMindlin {
   static constexpr std::string_view name = "hertz_mindlin_epsd";
   static constexpr int parameter_count = 6;
-  double young_eff, shear_eff;          ///< [Pa] [Pa]
-  double beta;                          ///< [-] damping factor, 0 = elastic
-  double friction;                      ///< [-]
-  double rolling_friction, rolling_damping;   ///< [-] mu_r, eta_r
+  double young_eff, shear_eff;               ///< [Pa] [Pa]
+  double beta;                               ///< [-] damping factor, 0 = elastic
+  double friction;                           ///< [-]
+  double rolling_friction, rolling_damping;  ///< [-] mu_r, eta_r
 
-  struct Stiffness { double radius, normal, tangential, rolling; };
+  struct Stiffness {
+    double radius, normal, tangential, rolling;
+  };
   VENATO_KERNEL Stiffness stiffness(const ContactGeometry& g, double radius) const {
     const double k_n = 4.0 / 3.0 * young_eff * radius;
     const double arm = rolling_friction * g.r_eff;
@@ -30,7 +32,7 @@ struct HertzMindlin {
   }
   VENATO_KERNEL Stiffness stiffness(const ContactGeometry& g) const { return stiffness(g, std::sqrt(g.r_eff * g.overlap)); }
   VENATO_KERNEL double normal_damping(const ContactGeometry& g, const Stiffness& k) const {
-    return kDamping * beta * std::sqrt(1.5 * k.normal * g.m_eff);   // S_n = 2 Y* a = 1.5 k_n
+    return kDamping * beta * std::sqrt(1.5 * k.normal * g.m_eff);  // S_n = 2 Y* a = 1.5 k_n
   }
 
   VENATO_KERNEL ContactForce force(const ContactGeometry& g, ContactHistory& h, double dt) const {
@@ -62,7 +64,7 @@ struct HertzMindlin {
     return {(f.normal - k.normal * g.overlap) * g.approach * dt, t.damping, t.plastic, r.plastic + r.damping};
   }
 
-  static constexpr double kDamping = 1.8257418583505538;   ///< 2 sqrt(5/6)
+  static constexpr double kDamping = 1.8257418583505538;  ///< 2 sqrt(5/6)
 };
 static_assert(ContactLaw<HertzMindlin>);
 

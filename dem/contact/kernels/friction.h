@@ -17,7 +17,7 @@ VENATO_KERNEL double unload_ratio(double radius_now, double radius_before) { ret
 VENATO_KERNEL Trio capped_spring(Trio& spring, const ContactGeometry& g, double ratio, const Trio& rate, double stiffness, double damping, double cap,
                                  double dt) {
   const double two = 2 / (1 + dot(g.turn, g.turn));
-  const Trio turned = across(rotate(spring, g.turn, two), g.normal);   // projection only removes rounding
+  const Trio turned = across(rotate(spring, g.turn, two), g.normal);  // projection only removes rounding
   const Trio trial = ratio * turned - (stiffness * dt) * rate;
   const double size = length(trial);
   const bool slips = size > cap;
@@ -30,7 +30,9 @@ VENATO_KERNEL Trio capped_spring(Trio& spring, const ContactGeometry& g, double 
 }
 
 /// Energy lost by one capped spring in one step: shrinking / stiffening, slip (both in .first), damping (.second). Each is >= 0.
-struct SpringLoss { double plastic, damping; };
+struct SpringLoss {
+  double plastic, damping;
+};
 inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio& total, const ContactGeometry& g, double ratio, const Trio& rate,
                               double stiffness_before, double stiffness, double dt) {
   if (!(stiffness > 0)) return {0, -dot(total, rate) * dt};
@@ -43,5 +45,5 @@ inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio&
   return {rescaling + slip, -dot(total - after, rate) * dt};
 }
 
-inline constexpr double kEpsdStiffness = 2.25;   ///< [-] k_r = 2.25 k_n mu_r^2 R*^2 (Ai, Chen, Rotter & Ooi 2011, model C)
+inline constexpr double kEpsdStiffness = 2.25;  ///< [-] k_r = 2.25 k_n mu_r^2 R*^2 (Ai, Chen, Rotter & Ooi 2011, model C)
 }  // namespace venato::dem

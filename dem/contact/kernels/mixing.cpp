@@ -36,7 +36,8 @@ void check_materials(const MaterialTable& t) {
       require(p.restitution >= kLowestRestitution && p.restitution <= 1, who, "restitution", p.restitution, "[0.01, 1]");
       require(p.sliding_friction >= 0 && std::isfinite(p.sliding_friction), who, "sliding friction", p.sliding_friction, "[0, inf)");
       require(p.rolling_friction >= 0 && std::isfinite(p.rolling_friction), who, "rolling friction", p.rolling_friction, "[0, inf)");
-      require(p.rolling_damping_ratio >= 0 && std::isfinite(p.rolling_damping_ratio), who, "rolling damping ratio", p.rolling_damping_ratio, "[0, inf)");
+      require(p.rolling_damping_ratio >= 0 && std::isfinite(p.rolling_damping_ratio), who, "rolling damping ratio", p.rolling_damping_ratio,
+              "[0, inf)");
       if (p.restitution != q.restitution || p.sliding_friction != q.sliding_friction || p.rolling_friction != q.rolling_friction ||
           p.rolling_damping_ratio != q.rolling_damping_ratio)
         throw UsageError("material " + who + ": the table is not symmetric");

@@ -13,19 +13,19 @@ inline constexpr int kMaxParameters = 9;
 /// Raw state of touching pairs; `from_i` = position of j seen from i (periodic image already chosen).
 struct alignas(64) PairBatch {
   using Lane = double[kBatchWidth];
-  Lane from_i_x, from_i_y, from_i_z;            ///< [m]
-  Lane dv_x, dv_y, dv_z;                        ///< [m/s] v_j - v_i, half step
-  Lane wi_x, wi_y, wi_z, wj_x, wj_y, wj_z;      ///< [rad/s]
+  Lane from_i_x, from_i_y, from_i_z;        ///< [m]
+  Lane dv_x, dv_y, dv_z;                    ///< [m/s] v_j - v_i, half step
+  Lane wi_x, wi_y, wi_z, wj_x, wj_y, wj_z;  ///< [rad/s]
   Lane radius_i, radius_j, inverse_mass_i, inverse_mass_j;
   double parameter[kMaxParameters][kBatchWidth];
-  double history[8][kBatchWidth];               ///< ContactHistory, member by member; in and out
-  Lane force_x, force_y, force_z;               ///< out: on i [N]
-  Lane torque_i_x, torque_i_y, torque_i_z, torque_j_x, torque_j_y, torque_j_z;   ///< out [N m]
+  double history[8][kBatchWidth];                                               ///< ContactHistory, member by member; in and out
+  Lane force_x, force_y, force_z;                                               ///< out: on i [N]
+  Lane torque_i_x, torque_i_y, torque_i_z, torque_j_x, torque_j_y, torque_j_z;  ///< out [N m]
 };
 
 struct PairFrame {
   ContactGeometry g;
-  double arm_i, arm_j;   ///< [m] R - overlap/2: both torques act at one point, so angular momentum is exact
+  double arm_i, arm_j;  ///< [m] R - overlap/2: both torques act at one point, so angular momentum is exact
 };
 
 VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
@@ -35,7 +35,7 @@ VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   const double distance = length(to_j);
   const Trio n = (1 / distance) * to_j;
   const double gap = ri + rj - distance;
-  const double overlap = gap > 0 ? gap : 0.0;   // the touch test compares squares: rounding may leave -1e-20 here
+  const double overlap = gap > 0 ? gap : 0.0;  // the touch test compares squares: rounding may leave -1e-20 here
   PairFrame f;
   f.arm_i = ri - 0.5 * overlap;
   f.arm_j = rj - 0.5 * overlap;
@@ -44,7 +44,7 @@ VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   const Trio n_half = (1 / length(half)) * half;
   f.g.overlap = overlap;
   f.g.approach = -dot(dv, n);
-  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, (1 / distance) * half) - across(dv, n_half);   // `half` is a chord: exact for rigid turns
+  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, (1 / distance) * half) - across(dv, n_half);  // `half` is a chord: exact for rigid turns
   f.g.roll = across(wi - wj, n);
   f.g.normal = n;
   f.g.turn = frame_turn(before, to_j, n, 0.5 * dot(wi + wj, n) * dt);

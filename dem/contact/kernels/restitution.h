@@ -1,11 +1,13 @@
 #pragma once
 namespace venato::dem {
 
-inline constexpr double kLowestRestitution = 0.01;   ///< below it the damping time is far shorter than any affordable step
+inline constexpr double kLowestRestitution = 0.01;  ///< below it the damping time is far shorter than any affordable step
 
 /// One damped Hertz collision x'' = -max(0, x^1.5 + alpha x^0.25 x') in dimensionless form (m = k_h = v = 1): whatever R, Y, v are, the result is the
 /// same (Antypov & Elliott 2011). Results as ratios to the elastic collision.
-struct HertzCollision { double restitution, overlap_ratio, duration_ratio; };
+struct HertzCollision {
+  double restitution, overlap_ratio, duration_ratio;
+};
 HertzCollision collide_hertz(double alpha);
 
 /// Damping factor beta of gamma_n = 2 sqrt(5/6) beta sqrt(S_n m*) such that the MEASURED restitution with the clamp F_n >= 0 equals `restitution`.

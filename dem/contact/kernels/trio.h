@@ -12,7 +12,7 @@ struct Trio {
   double x = 0, y = 0, z = 0;
   VENATO_KERNEL Trio() {}
   VENATO_KERNEL Trio(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
-  VENATO_KERNEL Trio(const Trio& o) : x(o.x), y(o.y), z(o.z) {}   // member by member: the vectoriser refuses block copies
+  VENATO_KERNEL Trio(const Trio& o) : x(o.x), y(o.y), z(o.z) {}  // member by member: the vectoriser refuses block copies
   VENATO_KERNEL Trio& operator=(const Trio& o) {
     x = o.x, y = o.y, z = o.z;
     return *this;
@@ -36,11 +36,11 @@ VENATO_KERNEL Trio rotate(const Trio& v, const Trio& g, double two_over_one_plus
   return v + two_over_one_plus_g2 * (a + cross(g, a));
 }
 /// Rotation that turns the contact frame in one step: the normal from the direction of `from` to that of `to` by the shortest way, after which
-/// the frame spins by `angle` = rate * dt about the (new) unit normal n, as the midpoint rule has it: tan(turn / 2) = angle / 2. With the half-step normal
-/// of pair_frame() a pair that turns as one rigid body then keeps its springs exactly, whatever the step.
+/// the frame spins by `angle` = rate * dt about the (new) unit normal n, as the midpoint rule has it: tan(turn / 2) = angle / 2. With the half-step
+/// normal of pair_frame() a pair that turns as one rigid body then keeps its springs exactly, whatever the step.
 VENATO_KERNEL Trio frame_turn(const Trio& from, const Trio& to, const Trio& n, double angle) {
   const Trio shortest = (1 / (std::sqrt(dot(from, from) * dot(to, to)) + dot(from, to))) * cross(from, to);
   const Trio spin = (0.5 * angle) * n;
-  return shortest + spin + cross(spin, shortest);   // composition of Gibbs vectors; their dot product is 0
+  return shortest + spin + cross(spin, shortest);  // composition of Gibbs vectors; their dot product is 0
 }
 }  // namespace venato::dem

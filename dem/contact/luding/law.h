@@ -1,5 +1,6 @@
 #pragma once
-/// Luding's adhesive elasto-plastic normal contact (piecewise linear, stiffness grows with the largest overlap), quasi-static: damping is the caller's.
+/// Luding's adhesive elasto-plastic normal contact (piecewise linear, stiffness grows with the largest overlap), quasi-static: damping is the
+/// caller's.
 ///
 ///   d_lim = k2max / (k2max - k1) phi_f 2 R_eff         overlap from which the contact is elastic with k2max
 ///   k2    = k1 + (k2max - k1) min(d_max / d_lim, 1),   d_0 = (1 - k1/k2) d_max
@@ -14,13 +15,13 @@ namespace venato::dem {
 
 struct Luding {
   static constexpr std::string_view name = "luding";
-  double k1_n_m = 0;       ///< > 0 virgin loading
-  double k2max_n_m = 0;    ///< >= k1 unloading of a fully compressed contact
-  double k_c_n_m = 0;      ///< >= 0 adhesion
-  double phi_f = 0;        ///< > 0 dimensionless plasticity depth
+  double k1_n_m = 0;     ///< > 0 virgin loading
+  double k2max_n_m = 0;  ///< >= k1 unloading of a fully compressed contact
+  double k_c_n_m = 0;    ///< >= 0 adhesion
+  double phi_f = 0;      ///< > 0 dimensionless plasticity depth
 };
 struct LudingHistory {
-  double overlap_max_m = 0;   ///< in [0, d_lim]; starts at 0, is reset when the contact opens
+  double overlap_max_m = 0;  ///< in [0, d_lim]; starts at 0, is reset when the contact opens
 };
 
 /// d_lim [m]; infinite when k2max = k1 (the law is then Hooke's).

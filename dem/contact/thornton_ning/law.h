@@ -12,18 +12,18 @@ namespace venato::dem {
 
 struct ThorntonNing {
   static constexpr std::string_view name = "thornton_ning";
-  double e_eff_pa = 0;            ///< E*
-  double yield_pressure_pa = 0;   ///< p_y; infinite = Hertz
+  double e_eff_pa = 0;           ///< E*
+  double yield_pressure_pa = 0;  ///< p_y; infinite = Hertz
 };
 struct ThorntonNingHistory {
-  double overlap_max_m = 0;   ///< starts at 0, is reset when the contact opens
+  double overlap_max_m = 0;  ///< starts at 0, is reset when the contact opens
 };
 /// The unloading branch that belongs to a largest overlap.
 struct ThorntonNingUnloading {
-  double force_max_n, r_p_m, overlap_p_m;   ///< P_max, R_p (R* before yield), d_p (0 before yield)
+  double force_max_n, r_p_m, overlap_p_m;  ///< P_max, R_p (R* before yield), d_p (0 before yield)
 };
 
-double thornton_ning_yield_overlap(const ThorntonNing& law, double r_eff_m);             ///< d_y [m]
+double thornton_ning_yield_overlap(const ThorntonNing& law, double r_eff_m);  ///< d_y [m]
 ThorntonNingUnloading thornton_ning_unloading(const ThorntonNing& law, double r_eff_m, double overlap_max_m);
 /// Force [N] >= 0. \param overlap_m [m]; <= 0: contact open, force 0, history reset. Updates the history.
 double thornton_ning_force(const ThorntonNing& law, double r_eff_m, double overlap_m, ThorntonNingHistory& history);

@@ -34,7 +34,7 @@ void read(ObjectReader& r, Config& c) {
   r.object(
       "dem", "numerics of the DEM slice",
       [&](ObjectReader& d) {
-        read_slice_numerics(d, c.numerics, 4, 5);
+        read_slice_numerics(d, c.numerics, 4, 5, 1.5);
         d.integer("pulses", c.pulses, {4, 200}, {.help = "pulses of the pseudo-random train the response is identified from", .fallback = 14});
         d.number("min_on_ms", c.min_on_pulse_s, {5, 1000, "ms"}, {.help = "shortest pulse and pause of the train", .fallback = 40.0});
         d.number("max_on_ms", c.max_on_pulse_s, {5, 2000, "ms"}, {.help = "longest pulse and pause of the train", .fallback = 120.0});

@@ -48,7 +48,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics, std::string_view 
   rain.high = Vec3(numerics.slice_width_m, c.outlet_m, top);
   rain.powder_mass_fractions = {1.0};
   // More than any opening passes: the level control is what sets the rate.
-  rain.mass_rate_kg_s = 0.05 * numerics.slice_width_m / 0.005;
+  rain.mass_rate_kg_s = 0.012 * numerics.slice_width_m / 0.005;
   rain.level_z_m = c.hopper_height_m;
   rain.velocity_m_s = Vec3(0, 0, -0.3);
   s.rains.push_back(rain);
@@ -68,11 +68,16 @@ dem::Case make_case(const Config& c, const LineBasics& basics, std::string_view 
 }
 
 namespace {
-/// Landing seen from the belt: a grain landing dy downstream of the prong's lip meets belt that passed the lip dy / v later, i.e. it counts as earlier.
-std::vector<TimedMass> landing_times(const Config& c, const LineBasics& basics, const dem::CaseResult& result) {
+double mean_landing_y(const dem::CaseResult& result) {
+  double mass = 0, moment = 0;
+  for (const dem::CounterRecord& g : result.records[kBelt]) mass += g.mass_kg, moment += g.mass_kg * g.position_m.y();
+  return mass > 0 ? moment / mass : 0;
+}
+
+/// Landing seen from the belt: a grain that lands dy downstream of the mean landing place meets belt that passed that place dy / v before, so it counts as earlier.
+std::vector<TimedMass> landing_times(double y_reference_m, const LineBasics& basics, const dem::CaseResult& result) {
   std::vector<TimedMass> landed;
-  for (const dem::CounterRecord& g : result.records[kBelt])
-    landed.push_back({g.time_s - (g.position_m.y() - (c.outlet_m + c.plate_m)) / basics.belt_speed_m_s, g.mass_kg});
+  for (const dem::CounterRecord& g : result.records[kBelt]) landed.push_back({g.time_s - (g.position_m.y() - y_reference_m) / basics.belt_speed_m_s, g.mass_kg});
   return landed;
 }
 
@@ -95,12 +100,12 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
 
   ResponseOperatorInput in;
   in.stage = "piezo_discharge";
-  in.landed = landing_times(c, basics, result);
+  const double landing_y = mean_landing_y(result);
+  in.landed = landing_times(landing_y, basics, result);
   in.shifts = lateral_shifts(result);
   in.pulses = train;
   in.start_s = c.settle_s;
   in.end_s = duration - 0.02;
-  in.options.max_delay_s = 0.4;
   in.replicates = basics.bootstrap_replicates;
   in.seed = main_case.seed;
   in.lateral_bin_m = basics.grid.pitch_m / 4;
@@ -109,6 +114,7 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   const double width = main_case.box.high.x();
   const double per_prong = op.figures["mass_flow_kg_s"] * c.prong_pitch_m / width;
   op.figures["mass_flow_per_prong_kg_s"] = per_prong;
+  op.figures["throw_m"] = landing_y - (c.outlet_m + c.plate_m);   // the dosing station on the belt lies this far downstream of the lip
   double leak = 0;
   for (const dem::CounterRecord& g : result.records[kBelt])
     if (g.time_s < c.settle_s) leak += g.mass_kg;

@@ -62,7 +62,7 @@ StageDescriptor descriptor() {
     s.name = "piezo_discharge";
     s.cost = [c](const LineBasics& basics, int threads) {
       const auto train = pulse_train(*c, basics);
-      dem::CaseCost cost = dem::estimate_cost(make_case(*c, basics, "piezo_discharge pulses", 1.0, train, train_duration(*c, train)), threads);
+      dem::CaseCost cost = estimate_slice_cost(make_case(*c, basics, "piezo_discharge pulses", 1.0, train, train_duration(*c, train)), threads);
       const double scale = 1 + static_cast<double>(c->drive_levels.size()) * (c->settle_s + 0.45) / train_duration(*c, train);
       cost.steps *= scale, cost.particle_steps *= scale, cost.seconds *= scale;
       return cost;

@@ -12,20 +12,20 @@ void read(ObjectReader& r, Config& c) {
   r.object(
       "geometry", "section of hoppers, actuators and common bin",
       [&](ObjectReader& g) {
-        g.number("outlet_mm", c.outlet_m, {3, 60, "mm"}, {.help = "opening of each hopper along the belt", .fallback = 12.0, .placeholder = true});
-        g.number("hopper_height_mm", c.hopper_height_m, {10, 200, "mm"}, {.help = "powder level in each hopper, held constant", .fallback = 30.0, .placeholder = true});
+        g.number("outlet_mm", c.outlet_m, {3, 60, "mm"}, {.help = "opening of each hopper along the belt", .fallback = 9.0, .placeholder = true});
+        g.number("hopper_height_mm", c.hopper_height_m, {10, 200, "mm"}, {.help = "powder level in each hopper, held constant", .fallback = 45.0, .placeholder = true});
         g.number("spacing_mm", c.spacing_m, {8, 200, "mm"}, {.help = "distance of neighbouring hoppers along the belt", .fallback = 26.0, .placeholder = true});
         g.number("drop_mm", c.drop_m, {20, 400, "mm"}, {.help = "height of the hopper outlets above the powder level of the bin", .fallback = 60.0, .placeholder = true});
-        g.number("throat_mm", c.throat_m, {5, 100, "mm"}, {.help = "clear width of the common bin along the belt", .fallback = 30.0, .placeholder = true});
+        g.number("throat_mm", c.throat_m, {5, 100, "mm"}, {.help = "clear width of the common bin along the belt", .fallback = 16.0, .placeholder = true});
         g.number("throat_height_mm", c.throat_height_m, {1, 200, "mm"}, {.help = "height of the throat's upright walls above the powder level", .fallback = 8.0, .placeholder = true});
         g.number("funnel_angle_deg", c.funnel_angle_rad, {30, 85, "deg"}, {.help = "inclination of the funnel walls", .fallback = 65.0, .placeholder = true});
-        g.number("target_mm", c.target_m, {1, 100, "mm"}, {.help = "discharge target region: middle of the throat", .fallback = 24.0, .placeholder = true});
+        g.number("target_mm", c.target_m, {1, 100, "mm"}, {.help = "discharge target region: middle of the throat", .fallback = 13.0, .placeholder = true});
       },
       false);
   r.object(
       "actuator", "sliding gate under each hopper",
       [&](ObjectReader& a) {
-        a.number("travel_time_ms", c.gate_travel_time_s, {1, 500, "ms"}, {.help = "time to open or close", .fallback = 30.0, .placeholder = true});
+        a.number("travel_time_ms", c.gate_travel_time_s, {1, 500, "ms"}, {.help = "time to open or close", .fallback = 50.0, .placeholder = true});
         a.number("cycle_s", c.cycle_s, {0.2, 10, "s"}, {.help = "feeding cycle of the characterisation: each powder is fed once", .fallback = 1.0});
         a.number("on_share", c.on_share, {0.1, 0.9, "1"}, {.help = "share of each powder's part of the cycle in which its actuator is open", .fallback = 0.6});
       },
@@ -33,13 +33,13 @@ void read(ObjectReader& r, Config& c) {
   r.object(
       "dem", "numerics of the DEM slice",
       [&](ObjectReader& d) {
-        read_slice_numerics(d, c.numerics, 5, 6);
+        read_slice_numerics(d, c.numerics, 5, 6, 3.0);
         d.integer("cycles", c.cycles, {1, 50}, {.help = "feeding cycles simulated; more make smaller error bars", .fallback = 2});
         d.number("settle_ms", c.settle_s, {20, 5000, "ms"}, {.help = "rest before the first opening", .fallback = 150.0});
       },
       false);
   if (r.describing()) return;
-  if (c.spacing_m < c.outlet_m + 0.002) r.issue("geometry", "hoppers overlap: spacing_mm must exceed outlet_mm by 2 mm", "raise spacing_mm");
+  if (c.spacing_m < c.outlet_m + 0.012) r.issue("geometry", "actuators of neighbouring hoppers touch: spacing_mm must exceed outlet_mm by 12 mm", "raise spacing_mm");
   if (c.target_m > c.throat_m) r.issue("geometry", "target_mm is wider than throat_mm", "lower target_mm");
   if (c.drop_m < c.throat_height_m + 0.01) r.issue("geometry", "drop_mm must exceed throat_height_mm by 10 mm", "raise drop_mm");
 }

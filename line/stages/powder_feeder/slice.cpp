@@ -11,9 +11,10 @@
 namespace venato::line::powder_feeder {
 namespace {
 constexpr double kTail_s = 0.3;           // after the last closing: the streams run dry
-constexpr double kFeedBand_m = 0.012;     // rain band above the held hopper level
-constexpr double kGatePlay_m = 0.0002;    // gate below the hopper walls: less than any grain
-constexpr double kHopperClear_m = 0.006;  // between outlet and the counter below it
+constexpr double kFeedBand_m = 0.016;     // rain band above the held hopper level
+constexpr double kFeedSpeed_m_s = 1.2;     // fast enough that the rain is never what limits the flow
+constexpr double kSealSlope = 0.4;         // the gate reaches so far beyond the outlet that powder in the gap above it rests at less than 22 degrees
+constexpr double kHopperClear_m = 0.008;  // between outlet and the counter below it
 }  // namespace
 
 std::vector<std::vector<PulseWindow>> feeding_schedule(const Config& c, std::size_t powders) {
@@ -37,12 +38,12 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
   std::iota(powders.begin(), powders.end(), 0);
   const double span = static_cast<double>(n - 1) * c.spacing_m + c.outlet_m;
   const double hopper_top = c.drop_m + c.hopper_height_m + kFeedBand_m + 0.004;
-  const double reach = std::max(span / 2 + c.outlet_m + 0.02, c.throat_m / 2 + 0.01) + 0.01;
+  const double reach = std::max(span / 2 + c.outlet_m + 0.03, c.throat_m / 2 + 0.01) + 0.01;
   dem::Case s = make_slice_case(basics, "powder_feeder cycle", c.numerics, powders, -reach, reach, -0.004, hopper_top + 0.004);
   s.duration_s = case_duration(c);
 
   // The funnel catches the outermost stream: it opens at its angle until it is wider than the row of hoppers, and stays below the gates.
-  const double rim_z = c.drop_m - 0.006;
+  const double rim_z = c.drop_m - largest_grain_m(basics, c.numerics.coarse_graining) - 0.003;
   const double rim_half = std::min(reach - 0.004, c.throat_m / 2 + (rim_z - c.throat_height_m) / std::tan(c.funnel_angle_rad));
   for (const int side : {-1, 1})
     add_profile_wall(s, side < 0 ? "funnel rear" : "funnel front",
@@ -55,7 +56,9 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
     add_profile_wall(s, "hopper rear " + name, {{low, hopper_top}, {low, c.drop_m}}, LineBasics::kSteel);
     add_profile_wall(s, "hopper front " + name, {{high, hopper_top}, {high, c.drop_m}}, LineBasics::kSteel);
     dem::WallMotion slide;
-    const double away = (middle >= 0 ? 1 : -1) * (c.outlet_m + 0.004);   // gates open outwards
+    // Gap of the largest grain: the closing gate crushes none, and the powder seals by its own angle of repose.
+    const double play = largest_grain_m(basics, c.numerics.coarse_graining), gate_z = c.drop_m - play, overlap = play / kSealSlope;
+    const double away = (middle >= 0 ? 1 : -1) * (c.outlet_m + overlap + 0.001);   // gates open outwards
     slide.track.push_back({0.0, Vec3::Zero()});
     for (const PulseWindow& p : schedule[k]) {
       slide.track.push_back({p.on_s, Vec3::Zero()});
@@ -63,7 +66,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
       slide.track.push_back({p.off_s, Vec3(0, away, 0)});
       slide.track.push_back({p.off_s + c.gate_travel_time_s, Vec3::Zero()});
     }
-    add_profile_wall(s, "actuator " + name, {{low - 0.002, c.drop_m - kGatePlay_m}, {high + 0.002, c.drop_m - kGatePlay_m}}, LineBasics::kSteel, slide);
+    add_profile_wall(s, "actuator " + name, {{low - overlap, gate_z}, {high + overlap, gate_z}}, LineBasics::kSteel, slide);
     dem::Fill fill;
     fill.low = Vec3(0, low, c.drop_m + 0.0005);
     fill.high = Vec3(c.numerics.slice_width_m, high, c.drop_m + c.hopper_height_m + 0.8 * kFeedBand_m);
@@ -75,9 +78,9 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
     rain.low = Vec3(0, low, c.drop_m + c.hopper_height_m + 0.004);
     rain.high = Vec3(c.numerics.slice_width_m, high, hopper_top);
     rain.powder_mass_fractions = fill.powder_mass_fractions;
-    rain.mass_rate_kg_s = 0.08 * c.numerics.slice_width_m / 0.006;   // more than an outlet passes; the level control sets the rate
+    rain.mass_rate_kg_s = 0.04 * c.numerics.slice_width_m / 0.006;   // more than an outlet passes; the level control sets the rate
     rain.level_z_m = c.drop_m + c.hopper_height_m;
-    rain.velocity_m_s = Vec3(0, 0, -0.3);
+    rain.velocity_m_s = Vec3(0, 0, -kFeedSpeed_m_s);
     s.rains.push_back(rain);
     dem::Counter outlet;
     outlet.name = "outlet " + name;
@@ -122,7 +125,6 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   }
   in.start_s = c.settle_s;
   in.end_s = c.settle_s + static_cast<double>(n) * length;
-  in.options.max_delay_s = 0.5;
   in.replicates = basics.bootstrap_replicates;
   in.seed = slice.seed;
   in.lateral_bin_m = basics.grid.pitch_m / 4;

@@ -70,7 +70,7 @@ StageDescriptor descriptor() {
     read(r, *c);
     Stage s;
     s.name = "powder_feeder";
-    s.cost = [c](const LineBasics& basics, int threads) { return dem::estimate_cost(make_case(*c, basics), threads); };
+    s.cost = [c](const LineBasics& basics, int threads) { return estimate_slice_cost(make_case(*c, basics), threads); };
     s.characterise = [c](const LineBasics& basics, const std::filesystem::path& folder, Context& context) { return characterise(*c, basics, folder, context); };
     s.apply = [c](const Operator& op, const ChainState& in, const LineBasics& basics, Context& context, int replicate) { return apply_stage(*c, op, in, basics, context, replicate); };
     s.plan_commands = [c](const graphics::VeinPlan& plan, const LineBasics& basics) { return plan_commands(*c, plan, basics); };

@@ -14,7 +14,7 @@ void read(ObjectReader& r, Config& c) {
   r.object(
       "dem", "cohesive DEM slice between floor and lid",
       [&](ObjectReader& d) {
-        read_slice_numerics(d, c.numerics, 4, 8);
+        read_slice_numerics(d, c.numerics, 4, 8, 1.5);
         d.number("stiffness_ratio_k2_k1", c.stiffness_ratio, {1, 100}, {.help = "EEPA unloading over loading stiffness", .fallback = 5.0, .placeholder = true});
         d.number("adhesion_ratio_kadh_k1", c.adhesion_ratio, {0, 10}, {.help = "EEPA adhesion over loading stiffness", .fallback = 0.2, .placeholder = true});
         d.number("bed_height_mm", c.bed_height_m, {3, 100, "mm"}, {.help = "loose bed in the slice before pressing", .fallback = 14.0});

@@ -18,7 +18,7 @@ double fill_mass(const Config& c, const LineBasics& basics) {
   const double area = c.numerics.slice_width_m * c.numerics.slice_width_m;
   return kLoosePacking * area * c.bed_height_m * basics.materials.materials[LineBasics::kGrain].density_kg_m3;
 }
-double lid_start(const Config& c) { return 1.9 * c.bed_height_m; }   // above the loose lattice
+double lid_start(const Config& c) { return 2.6 * c.bed_height_m; }   // above the lattice the grains are laid on, which is looser still
 double lid_end(const Config& c) { return c.bed_height_m * kLoosePacking / c.end_solid_fraction; }
 }  // namespace
 

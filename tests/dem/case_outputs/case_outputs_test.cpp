@@ -57,7 +57,8 @@ CaseResult small_result() {
     r.records[0].push_back(record);
   }
   r.series.time_s = {0, 0.5, 1};
-  for (auto* v : {&r.series.grain_count, &r.series.mass_kg, &r.series.kinetic_energy_j, &r.series.mean_contacts, &r.series.max_speed_m_s, &r.series.top_z_m})
+  for (auto* v :
+       {&r.series.grain_count, &r.series.mass_kg, &r.series.kinetic_energy_j, &r.series.mean_contacts, &r.series.max_speed_m_s, &r.series.top_z_m})
     *v = {1, 2, 3};
   r.series.counter_mass_kg = {{0, 0.4e-3, 0.8e-3}};
   r.series.wall_force_n = {{Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)}, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
@@ -168,8 +169,8 @@ TEST(CaseOutputs, the_folder_holds_everything_twice_the_same) {
     EXPECT_EQ(read_file(entry.path()), read_file(folder / "b" / entry.path().filename())) << entry.path();
   }
   EXPECT_EQ(files, 9);
-  for (const char* name : {"result.h5", "kpi.csv", "series.csv", "counter_exit.csv", "counter_mass.svg", "flow_rate.svg", "kinetic_energy.svg", "profile_0_velocity.svg",
-                           "profile_0_solid_fraction.svg"})
+  for (const char* name : {"result.h5", "kpi.csv", "series.csv", "counter_exit.csv", "counter_mass.svg", "flow_rate.svg", "kinetic_energy.svg",
+                           "profile_0_velocity.svg", "profile_0_solid_fraction.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder / "a" / name)) << name;
 
   const H5Reader file(folder / "a/result.h5", "venato-dem-result", 1);

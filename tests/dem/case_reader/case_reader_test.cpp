@@ -83,14 +83,15 @@ TEST(CaseReader, slot_hopper_in_si) {
 }
 
 TEST(CaseReader, shapes_motions_rain_and_laws) {
-  auto [c, outcome] = read({{"/walls/2/motion", R"({"velocity_m_s":[0,0.1,0],"translate_when_s":[[0.1,0.2],[0.3,0.4]],
+  auto [c, outcome] =
+      read({{"/walls/2/motion", R"({"velocity_m_s":[0,0.1,0],"translate_when_s":[[0.1,0.2],[0.3,0.4]],
       "track":[{"time_s":0,"offset_mm":[0,0,0]},{"time_s":1,"offset_mm":[0,5,0]}],"rotation":{"centre_mm":[0,1,2],"speed_deg_s":[0,0,180]},
       "vibration":{"amplitude_um":[0,0,50],"frequency_hz":200,"phase_deg":90,"when_s":[[0,1]]},"surface_velocity_m_s":[0,0.3,0]})"},
-                             {"/contact", R"({"law":"eepa","stiffness_ratio_k2_k1":5,"adhesion_ratio_kadh_k1":0.5,"constant_force_mn":-2})"},
-                             {"/rains", R"([{"name":"top","low_mm":[0,-5,60],"high_mm":[8,5,80],"mass_fractions":[1],"mass_rate_g_s":2.5,"when_s":[[0,0.5]],
+            {"/contact", R"({"law":"eepa","stiffness_ratio_k2_k1":5,"adhesion_ratio_kadh_k1":0.5,"constant_force_mn":-2})"},
+            {"/rains", R"([{"name":"top","low_mm":[0,-5,60],"high_mm":[8,5,80],"mass_fractions":[1],"mass_rate_g_s":2.5,"when_s":[[0,0.5]],
       "velocity_m_s":[0,0,-0.2],"level_control":{"z_mm":55}}])"},
-                             {"/time_step", R"({"fixed_us":2})"},
-                             {"/vtk", R"({"every_s":0.02})"}});
+            {"/time_step", R"({"fixed_us":2})"},
+            {"/vtk", R"({"every_s":0.02})"}});
   ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
   const WallMotion& m = c.walls[2].motion;
   EXPECT_NEAR(m.velocity_m_s.y(), 0.1, 1e-15);
@@ -143,7 +144,7 @@ TEST(CaseReader, mesh_from_a_file) {
 struct Mistake {
   const char* pointer;
   const char* value;
-  const char* issue_at;   ///< pointer of the issue
+  const char* issue_at;  ///< pointer of the issue
   const char* says;
 };
 
@@ -161,15 +162,18 @@ TEST(CaseReader, each_mistake_is_reported_where_it_is) {
            {"/materials/0/poisson_ratio", "0.6", "/materials/0/poisson_ratio", ""},
            {"/materials/0/kind", "\"powder\"", "/materials/0/kind", ""},
            {"/pairs/1/b", "\"brass\"", "/pairs/1/b", "no material 'brass'"},
-           {"/pairs/1", R"({"a":"granulate","b":"granulate","restitution":0.5,"sliding_friction":0.5,"rolling_friction":0.1})", "/pairs", "'granulate' - 'steel' is missing"},
-           {"/pairs/1", R"({"a":"granulate","b":"granulate","restitution":0.5,"sliding_friction":0.5,"rolling_friction":0.1})", "/pairs/1", "given twice"},
+           {"/pairs/1", R"({"a":"granulate","b":"granulate","restitution":0.5,"sliding_friction":0.5,"rolling_friction":0.1})", "/pairs",
+            "'granulate' - 'steel' is missing"},
+           {"/pairs/1", R"({"a":"granulate","b":"granulate","restitution":0.5,"sliding_friction":0.5,"rolling_friction":0.1})", "/pairs/1",
+            "given twice"},
            {"/pairs/0/restitution", "1.5", "/pairs/0/restitution", ""},
            {"/powders/0/material", "\"steel\"", "/powders/0/material", "wall material"},
            {"/powders/0/material", "\"sand\"", "/powders/0/material", "no material 'sand'"},
            {"/powders/0/lower_cut_um", "0", "/powders/0/lower_cut_um", ""},
            {"/powders/0/lower_cut_um", "700", "/powders/0/lower_cut_um", "upper cut"},
            {"/contact/law", "\"hertz\"", "/contact/law", ""},
-           {"/contact", R"({"law":"eepa","stiffness_ratio_k2_k1":5,"adhesion_ratio_kadh_k1":0.5,"exponent":1.2})", "/contact/exponent", "neither 1 nor 1.5"},
+           {"/contact", R"({"law":"eepa","stiffness_ratio_k2_k1":5,"adhesion_ratio_kadh_k1":0.5,"exponent":1.2})", "/contact/exponent",
+            "neither 1 nor 1.5"},
            {"/walls/0/material", "\"glass\"", "/walls/0/material", "known: granulate, steel"},
            {"/walls/0/shape", "\"cone\"", "/walls/0/shape", ""},
            {"/walls/0/points_mm", "[[0,0]]", "/walls/0/points_mm", ""},
@@ -181,7 +185,8 @@ TEST(CaseReader, each_mistake_is_reported_where_it_is) {
            {"/walls/2/present/to_s", "0", "/walls/2/present/to_s", "before it appears"},
            {"/walls/0/motion", R"({"translate_when_s":[[2,1]]})", "/walls/0/motion/translate_when_s", "ends before it starts"},
            {"/walls/0/motion", R"({"translate_when_s":[[1,3],[2,4]]})", "/walls/0/motion/translate_when_s", "before the one before it ends"},
-           {"/walls/0/motion", R"({"track":[{"time_s":1,"offset_mm":[0,0,0]},{"time_s":1,"offset_mm":[0,0,1]}]})", "/walls/0/motion/track/1/time_s", "rising"},
+           {"/walls/0/motion", R"({"track":[{"time_s":1,"offset_mm":[0,0,0]},{"time_s":1,"offset_mm":[0,0,1]}]})", "/walls/0/motion/track/1/time_s",
+            "rising"},
            {"/fills/0/mass_fractions", "[0.9]", "/fills/0/mass_fractions", "not to 1"},
            {"/fills/0/mass_fractions", "[0.5, 0.5]", "/fills/0/mass_fractions", "1 powders"},
            {"/fills/0/high_mm", "[8, 11, 95]", "/fills/0/low_mm", "the box from"},
@@ -218,7 +223,8 @@ TEST(CaseReader, missing_keys_are_required_ones_only) {
     read_case(r, c);
   });
   const std::string text = issue_list(outcome);
-  for (const char* key : {"/format", "/version", "/name", "/seed", "/box", "/materials", "/pairs", "/powders", "/contact", "/duration_s", "/expected_max_speed_m_s"})
+  for (const char* key :
+       {"/format", "/version", "/name", "/seed", "/box", "/materials", "/pairs", "/powders", "/contact", "/duration_s", "/expected_max_speed_m_s"})
     EXPECT_NE(text.find(key), std::string::npos) << key;
   for (const char* key : {"/walls", "/rains", "/counters", "/series", "/vtk", "/coarse_graining", "/gravity", "/time_step"})
     EXPECT_EQ(text.find(std::string(key) + ":"), std::string::npos) << key << "\n" << text;
@@ -237,10 +243,12 @@ TEST(CaseReader, reference_and_schema_are_made_from_the_same_declarations) {
 
 TEST(MaterialReader, pairs_of_two_walls_may_be_missing_and_defaults_apply) {
   MaterialTable table;
-  const ReadOutcome outcome = read_config_text(R"({"materials":[{"name":"a","kind":"grain","density_kg_m3":2000,"young_modulus_mpa":10,"poisson_ratio":0.25},
+  const ReadOutcome outcome =
+      read_config_text(R"({"materials":[{"name":"a","kind":"grain","density_kg_m3":2000,"young_modulus_mpa":10,"poisson_ratio":0.25},
       {"name":"b","kind":"wall","young_modulus_mpa":200,"poisson_ratio":0.3},{"name":"c","kind":"wall","young_modulus_mpa":2,"poisson_ratio":0.4}],
       "pairs":[{"a":"a","b":"a","restitution":0.5,"sliding_friction":0.5,"rolling_friction":0.1},{"a":"b","b":"a","restitution":0.6,"sliding_friction":0.4,"rolling_friction":0.1},
-      {"a":"a","b":"c","restitution":0.7,"sliding_friction":0.3,"rolling_friction":0.1}]})", kConfigs, {}, [&](ObjectReader& r) { read_materials(r, table); });
+      {"a":"a","b":"c","restitution":0.7,"sliding_friction":0.3,"rolling_friction":0.1}]})",
+                       kConfigs, {}, [&](ObjectReader& r) { read_materials(r, table); });
   ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
   EXPECT_NEAR(table.pair(0, 1).restitution, 0.6, 1e-15);
   EXPECT_NEAR(table.pair(2, 0).restitution, 0.7, 1e-15);

@@ -35,8 +35,8 @@ TEST(ReadyCases, the_slot_discharges_as_beverloo_says) {
   const FlowEstimate flow = steady_flow(result.records.at(0));
   double volume_mean = 0;
   for (const CounterRecord& r : result.records[0]) volume_mean += r.mass_kg * r.diameter_m / result.mass_removed_kg;
-  // Slot law W = 1.03 rho_b sqrt(g) L (B - k d)^1.5 with k = 1.4 (multiscale.md 4), slot 8 mm (periodic: no k d taken off) x 6 mm. Bulk density 0.58 of
-  // the grain's; constant and k are known to about 20 % between powders and wall angles, and a slot of 6 grains is at the lower end of the law.
+  // Slot law W = 1.03 rho_b sqrt(g) L (B - k d)^1.5 with k = 1.4 (multiscale.md 4), slot 8 mm (periodic: no k d taken off) x 6 mm. Bulk density 0.58
+  // of the grain's; constant and k are known to about 20 % between powders and wall angles, and a slot of 6 grains is at the lower end of the law.
   const double law = 1.03 * 0.58 * 1900 * std::sqrt(kStandardGravity_m_s2) * 8e-3 * std::pow(6e-3 - 1.4 * volume_mean, 1.5);
   EXPECT_NEAR(flow.mean_kg_s / law, 1, 0.25) << flow.mean_kg_s << " " << law;
   EXPECT_LT(flow.standard_error_kg_s / flow.mean_kg_s, 0.05);

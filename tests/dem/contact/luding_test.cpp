@@ -16,8 +16,8 @@ constexpr Luding kLaw{200, 1000, 100, 0.05};
 constexpr double kR = 0.25e-3, kDigits = 1e-6;
 const double kLimit = luding_plastic_limit(kLaw, kR);
 
-/// Work done on the contact going from one overlap to another, midpoint rule of n steps. The branches are straight lines, so the only quadrature error
-/// is the one step in which a corner lies: (slope change)/8 * step^2, below 1e-9 of the energies with 2e5 steps.
+/// Work done on the contact going from one overlap to another, midpoint rule of n steps. The branches are straight lines, so the only quadrature
+/// error is the one step in which a corner lies: (slope change)/8 * step^2, below 1e-9 of the energies with 2e5 steps.
 double work(const Luding& law, double from, double to, LudingHistory& h, int n = 200'000) {
   const double step = (to - from) / n;
   double sum = 0;
@@ -123,7 +123,8 @@ TEST(Luding, opening_forgets) {
 
 TEST(Luding, refuses_impossible_parameters) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Luding& bad : {Luding{0, 1000, 0, .05}, Luding{200, 100, 0, .05}, Luding{200, 1000, -1, .05}, Luding{200, 1000, 0, 0}, Luding{nan, 1000, 0, .05}})
+  for (const Luding& bad :
+       {Luding{0, 1000, 0, .05}, Luding{200, 100, 0, .05}, Luding{200, 1000, -1, .05}, Luding{200, 1000, 0, 0}, Luding{nan, 1000, 0, .05}})
     EXPECT_THROW(check_luding(bad), UsageError);
   EXPECT_NO_THROW(check_luding(kLaw));
 }

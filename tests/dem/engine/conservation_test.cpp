@@ -37,17 +37,18 @@ TEST(Conservation, MomentumAndAngularMomentumOfACloud) {
     most = std::max(most, sim.statistics().contact_count);
   }
   const auto after = sums(sp, sl);
-  EXPECT_GT(most, 5);                                         // they really met
+  EXPECT_GT(most, 5);  // they really met
   EXPECT_LT(sim.energy().kinetic_j(), 0.8 * energy_before);
   EXPECT_LT((after.first - before.first).norm(), 1e-12 * sp);
   EXPECT_LT((after.second - before.second).norm(), 1e-12 * sl);
 }
 
-/// Energy book over oblique impacts of unequal pairs and on walls: 1e-3 (verification.md 5.1), every loss >= 0.
+/// Energy book over oblique impacts of unequal pairs and on walls: 1e-3 (verification.md 5.1) at 2000 steps per contact (first order in dt), every
+/// loss >= 0.
 TEST(Conservation, EnergyBookCloses) {
   for (const LawKind law : {LawKind::hertz_mindlin_epsd, LawKind::eepa})
     for (const bool with_wall : {false, true}) {
-      SimulationSetup s = setup(5e-8, powder(0.6, 0.4, 0.1, 0.3));
+      SimulationSetup s = setup(2e-8, powder(0.6, 0.4, 0.1, 0.3));
       s.law = law;
       s.track_energy = true;
       s.gravity_m_s2 = Vec3(0, 0, -9.81);
@@ -66,14 +67,14 @@ TEST(Conservation, EnergyBookCloses) {
       double worst = 0;
       bool touched = false;
       for (int k = 0; k < 60; ++k) {
-        sim.step(50);
+        sim.step(125);
         const EnergyBook b = sim.energy();
         touched = touched || b.elastic_normal_j > 0;
         worst = std::max(worst, std::abs(b.kinetic_j() + b.potential_j + b.elastic_j() + b.dissipated_j() - b.wall_work_j - start));
       }
       const EnergyBook b = sim.energy();
       EXPECT_TRUE(touched);
-      EXPECT_EQ(sim.contacts().size(), law == LawKind::eepa ? 1u : 0u);   // EEPA sticks at this speed
+      EXPECT_EQ(sim.contacts().size(), law == LawKind::eepa ? 1u : 0u);  // EEPA sticks at this speed
       EXPECT_LT(worst, 1e-3 * a.kinetic_j()) << "law " << static_cast<int>(law) << " wall " << with_wall;
       for (const double loss : {b.dissipated_normal_j, b.dissipated_tangential_damping_j, b.dissipated_sliding_j, b.dissipated_rolling_j})
         EXPECT_GE(loss, -1e-6 * a.kinetic_j());
@@ -84,7 +85,7 @@ TEST(Conservation, EnergyBookCloses) {
 /// 5.6: a pressed and sheared pair turned as a rigid body keeps its tangential force and rolling torque, co-rotating. 1e-6 after 10 turns.
 TEST(Objectivity, RigidlyTurnedContactKeepsItsSprings) {
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 2, 3).normalized()}) {
-    const double dt = 1e-6, rate = 2 * std::numbers::pi / (2000 * dt);   // 2000 steps per turn
+    const double dt = 1e-6, rate = 2 * std::numbers::pi / (2000 * dt);  // 2000 steps per turn
     Simulation sim(setup(dt, {{{"g", 2500, 1e7, .25}}, {{1.0, 0.8, 0.1, 0}}}));
     GrainInput g[2] = {grain(Vec3(-0.999e-3, 0, 0), 1e-3), grain(Vec3(0.999e-3, 0, 0), 1e-3)};
     for (auto& x : g) x.frozen = true, sim.add_grain(x);
@@ -101,10 +102,10 @@ TEST(Objectivity, RigidlyTurnedContactKeepsItsSprings) {
     for (int k = 0; k < 20000; ++k) {
       // chords of the exact circle, so that positions stay rigid: v = (x(t + dt) - x(t)) / dt
       const Eigen::AngleAxisd now(rate * k * dt, axis), next(rate * (k + 1) * dt, axis);
-      for (int i = 0; i < 2; ++i) sim.set_velocity(i, (next * arm[i] - now * arm[i]) / dt, 2 * std::tan(rate * dt / 2) / dt * axis);   // midpoint rule
+      for (int i = 0; i < 2; ++i) sim.set_velocity(i, (next * arm[i] - now * arm[i]) / dt, 2 * std::tan(rate * dt / 2) / dt * axis);  // midpoint rule
       sim.step(1);
     }
-    const ContactState after = sim.contacts().at(0);   // 10 whole turns: everything is back
+    const ContactState after = sim.contacts().at(0);  // 10 whole turns: everything is back
     EXPECT_NEAR(after.tangential_spring_n.norm() / before.tangential_spring_n.norm(), 1, 1e-6);
     EXPECT_LT((after.tangential_spring_n - before.tangential_spring_n).norm(), 1e-6 * before.tangential_spring_n.norm());
     EXPECT_NEAR(after.rolling_spring_n_m.norm() / before.rolling_spring_n_m.norm(), 1, 1e-6);
@@ -114,12 +115,12 @@ TEST(Objectivity, RigidlyTurnedContactKeepsItsSprings) {
 /// 5.5: shear at small overlap, press, unshear, release: never a gain. Springs follow the header: rescaled when the contact unloads.
 TEST(Conservation, ElataBerrymanLoopGainsNothing) {
   const double dt = 1e-7;
-  SimulationSetup s = setup(dt, {{{"g", 2500, 1e7, .25}}, {{1.0, 100, 0, 0}}});   // no slip
+  SimulationSetup s = setup(dt, {{{"g", 2500, 1e7, .25}}, {{1.0, 100, 0, 0}}});  // no slip
   s.track_energy = true;
   Simulation sim(s);
   GrainInput g[2] = {grain(Vec3(0, 0, 0), 1e-3), grain(Vec3(2e-3 - 1e-6, 0, 0), 1e-3)};
   for (auto& x : g) x.frozen = true, sim.add_grain(x);
-  double work = 0;   // done on grain 1 by the hand that moves it
+  double work = 0;  // done on grain 1 by the hand that moves it
   auto move = [&](const Vec3& way) {
     const int n = 2000;
     sim.set_velocity(1, way / (n * dt), Vec3::Zero());
@@ -130,7 +131,7 @@ TEST(Conservation, ElataBerrymanLoopGainsNothing) {
     }
   };
   move(Vec3(0, 2e-7, 0)), move(Vec3(-3e-6, 0, 0)), move(Vec3(0, -2e-7, 0)), move(Vec3(3e-6, 0, 0));
-  EXPECT_GT(work, -1e-3 * 4.08881e-12);           // a displacement history would hand out 4.08881e-12 J
+  EXPECT_GT(work, -1e-3 * 4.08881e-12);  // a displacement history would hand out 4.08881e-12 J
   EXPECT_LT(work, 2 * 4.08881e-12);
 }
 }  // namespace

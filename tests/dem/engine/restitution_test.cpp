@@ -10,7 +10,8 @@ using namespace scene;
 
 /// Table 1.3: textbook beta gives these clamped restitutions. They were computed by an independent integrator to 5 digits: 2e-5.
 TEST(DampedHertz, ReproducesTheClampedColumn) {
-  const double table[][3] = {{.98, .99156, .98008}, {.9, .97112, .90203}, {.7, .93046, .71820}, {.5, .89062, .55028}, {.3, .84607, .39714}, {.1, .78803, .25273}, {.05, .76716, .21370}};
+  const double table[][3] = {{.98, .99156, .98008}, {.9, .97112, .90203}, {.7, .93046, .71820}, {.5, .89062, .55028},
+                             {.3, .84607, .39714},  {.1, .78803, .25273}, {.05, .76716, .21370}};
   for (const auto& row : table) {
     const HertzCollision c = collide_hertz(std::sqrt(5.0) * textbook_damping(row[0]));
     EXPECT_NEAR(c.restitution, row[2], 2e-5) << "e = " << row[0];
@@ -18,7 +19,7 @@ TEST(DampedHertz, ReproducesTheClampedColumn) {
   }
 }
 TEST(DampedHertz, InversionHitsTheTarget) {
-  for (const double e : {1.0, 0.98, 0.8, 0.5, 0.25, 0.1, 0.02})   // 1e-6: the promise of the header
+  for (const double e : {1.0, 0.98, 0.8, 0.5, 0.25, 0.1, 0.02})  // 1e-6: the promise of the header
     EXPECT_NEAR(collide_hertz(std::sqrt(5.0) * damping_for_restitution(e)).restitution, e, 1e-6);
 }
 
@@ -41,14 +42,15 @@ TEST(Restitution, PairsEqualAndUnequal) {
 }
 TEST(Restitution, WallAtRestAndMoving) {
   for (const double wall_speed : {0.0, 0.3, -0.2}) {
-    const double e = 0.5, r = 2e-4, v = -0.4, m = 4.0 / 3 * std::numbers::pi * r * r * r * 1900, t = hertz_time(m, r, 1e7 / (2 * (1 - 0.0625)), wall_speed - v);
+    const double e = 0.5, r = 2e-4, v = -0.4, m = 4.0 / 3 * std::numbers::pi * r * r * r * 1900,
+                 t = hertz_time(m, r, 1e7 / (2 * (1 - 0.0625)), wall_speed - v);
     Simulation sim(setup(t / 2000));
     Wall w = plane();
     w.motion.velocity_m_s = Vec3(0, 0, wall_speed);
     sim.add_wall(w);
     const GrainId a = sim.add_grain(grain(Vec3(0, 0, r * 1.01), r, Vec3(0, 0, v)));
     sim.step(static_cast<std::int64_t>((2 * t + 0.01 * r / (wall_speed - v)) / (t / 2000)));
-    EXPECT_NEAR(sim.grain(a).velocity_m_s.z(), wall_speed * (1 + e) - e * v, 1e-3);   // 6.1
+    EXPECT_NEAR(sim.grain(a).velocity_m_s.z(), wall_speed * (1 + e) - e * v, 1e-3);  // 6.1
   }
 }
 
@@ -64,11 +66,12 @@ TEST(FrozenOverlap, PairForceAndReaction) {
     const double young = 1e7 / (2 * (1 - 0.0625)), expected = 4.0 / 3 * young * std::sqrt(5e-4) * std::pow(c.overlap_m, 1.5);
     EXPECT_NEAR(c.normal_force_n / expected, 1, 1e-12);
     EXPECT_NEAR(c.normal_force_n, d == 1e-6 ? 1.590093e-4 : 1.272074e-3, 1e-6 * c.normal_force_n + 1e-12);
-    EXPECT_EQ(sim.grain(0).force_n, -sim.grain(1).force_n);   // bitwise opposite
+    EXPECT_EQ(sim.grain(0).force_n, -sim.grain(1).force_n);  // bitwise opposite
   }
 }
 TEST(FrozenOverlap, DissimilarPairEitherOrder) {
-  const MaterialTable m{{{"grain", 2500, 1e7, .25}, {"steel", 7800, 2.1e11, .3}}, {{.5, .5, .1, .3}, {.4, .3, .1, .3}, {.4, .3, .1, .3}, {.6, .5, .1, .3}}};
+  const MaterialTable m{{{"grain", 2500, 1e7, .25}, {"steel", 7800, 2.1e11, .3}},
+                        {{.5, .5, .1, .3}, {.4, .3, .1, .3}, {.4, .3, .1, .3}, {.6, .5, .1, .3}}};
   Vec3 force[2];
   for (const int swap : {0, 1}) {
     Simulation sim(setup(1e-7, m));
@@ -79,11 +82,11 @@ TEST(FrozenOverlap, DissimilarPairEitherOrder) {
       sim.add_grain(g);
     }
     sim.evaluate_forces();
-    force[swap] = sim.grain(swap).force_n;   // on the soft grain
+    force[swap] = sim.grain(swap).force_n;  // on the soft grain
   }
   EXPECT_EQ(force[0], force[1]);
   const double young = 1 / ((1 - .0625) / 1e7 + (1 - .09) / 2.1e11), r = 1e-3 * 5e-4 / 1.5e-3, d = 1e-3 + 5e-4 - 1.4995e-3;
-  EXPECT_NEAR(force[0].x() / (-4.0 / 3 * young * std::sqrt(r) * std::pow(d, 1.5)), 1, 1e-9);   // d has 4 digits of cancellation
+  EXPECT_NEAR(force[0].x() / (-4.0 / 3 * young * std::sqrt(r) * std::pow(d, 1.5)), 1, 1e-9);  // d has 4 digits of cancellation
 }
 }  // namespace
 }  // namespace venato::dem

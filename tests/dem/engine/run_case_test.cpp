@@ -49,7 +49,8 @@ Case hopper() {
     c.walls.push_back(v);
   }
   c.fills = {{Vec3(0, -0.005, 0.0065), Vec3(0.004, 0.005, 0.012), {0.5, 0.5}, 4e-5, Vec3(0, 0, -0.1)}};
-  c.counters = {{"slot", 2, -0.002, -1, Vec3::Constant(-1), Vec3::Constant(1), false, true}, {"below", 2, -0.004, -1, Vec3::Constant(-1), Vec3::Constant(1), true, true}};
+  c.counters = {{"slot", 2, -0.002, -1, Vec3::Constant(-1), Vec3::Constant(1), false, true},
+                {"below", 2, -0.004, -1, Vec3::Constant(-1), Vec3::Constant(1), true, true}};
   c.series.every_s = 0.005;
   c.snapshots = {{0.01, 0.03, 0.005}};
   return c;
@@ -57,32 +58,38 @@ Case hopper() {
 
 double last(const std::vector<double>& v) { return v.back(); }
 void expect_book(const CaseResult& r) {
-  EXPECT_NEAR(r.mass_put_in_kg, r.mass_removed_kg + r.mass_lost_box_kg + r.mass_left_kg, 1e-13 * r.mass_put_in_kg);   // rounding of a few thousand sums
+  EXPECT_NEAR(r.mass_put_in_kg, r.mass_removed_kg + r.mass_lost_box_kg + r.mass_left_kg,
+              1e-13 * r.mass_put_in_kg);  // rounding of a few thousand sums
 }
 
 TEST(RunCase, FillsFlowsCountsAndClosesItsBook) {
   Bench b;
   const Case c = hopper();
   const CaseResult r = run_case(c, {}, b.context);
-  EXPECT_NEAR(r.mass_put_in_kg, 4e-5, 2e-7);   // half the largest grain
+  EXPECT_NEAR(r.mass_put_in_kg, 4e-5, 2e-7);  // half the largest grain
   expect_book(r);
   EXPECT_GT(r.mass_removed_kg, 0.05 * r.mass_put_in_kg);
   EXPECT_EQ(r.mass_lost_box_kg, 0);
   ASSERT_EQ(r.records.size(), 2u);
-  const double counted = std::accumulate(r.records[1].begin(), r.records[1].end(), 0.0, [](double s, const CounterRecord& k) { return s + k.mass_kg; });
+  const double counted =
+      std::accumulate(r.records[1].begin(), r.records[1].end(), 0.0, [](double s, const CounterRecord& k) { return s + k.mass_kg; });
   EXPECT_NEAR(counted, r.mass_removed_kg, 1e-13 * counted);
-  EXPECT_NEAR(last(r.series.counter_mass_kg[0]), r.records[0].empty() ? 0 : std::accumulate(r.records[0].begin(), r.records[0].end(), 0.0, [](double s, const CounterRecord& k) { return s + (k.time_s <= 0.05 ? k.mass_kg : 0); }), 5e-2 * counted + 1e-9);
+  EXPECT_NEAR(last(r.series.counter_mass_kg[0]),
+              r.records[0].empty() ? 0
+                                   : std::accumulate(r.records[0].begin(), r.records[0].end(), 0.0,
+                                                     [](double s, const CounterRecord& k) { return s + (k.time_s <= 0.05 ? k.mass_kg : 0); }),
+              5e-2 * counted + 1e-9);
   double before = 0;
   for (const CounterRecord& k : r.records[0]) {
     EXPECT_GE(k.time_s, before);
     before = k.time_s;
-    EXPECT_NEAR(k.position_m.z(), -0.002, 1e-15);   // interpolated onto the plane
+    EXPECT_NEAR(k.position_m.z(), -0.002, 1e-15);  // interpolated onto the plane
     EXPECT_LT(k.velocity_m_s.z(), 0);
     EXPECT_TRUE(k.species == 0 || k.species == 1);
     EXPECT_EQ(k.birth_time_s, 0);
     EXPECT_GT(k.birth_position_m.z(), 0.006);
   }
-  ASSERT_EQ(r.snapshots[0].size(), 4u);   // 10, 15, 20, 25 ms
+  ASSERT_EQ(r.snapshots[0].size(), 4u);  // 10, 15, 20, 25 ms
   EXPECT_TRUE(std::is_sorted(r.snapshots[0][0].id.begin(), r.snapshots[0][0].id.end()));
   EXPECT_NEAR(r.snapshots[0][1].time_s, 0.015, 2 * r.time_step_s);
   EXPECT_EQ(r.series.time_s.size(), 11u);
@@ -101,7 +108,8 @@ std::uint64_t bytes_of(const CaseResult& r) {
     h = (h ^ u) * 1099511628211ull, h ^= h >> 31;
   };
   for (const auto& list : r.records)
-    for (const CounterRecord& k : list) add(k.time_s), add(k.position_m.x()), add(k.velocity_m_s.y()), add(k.spin_rad_s.z()), add(static_cast<double>(k.id));
+    for (const CounterRecord& k : list)
+      add(k.time_s), add(k.position_m.x()), add(k.velocity_m_s.y()), add(k.spin_rad_s.z()), add(static_cast<double>(k.id));
   for (const auto* s : {&r.series.time_s, &r.series.kinetic_energy_j, &r.series.mean_contacts, &r.series.top_z_m, &r.series.max_speed_m_s})
     for (const double v : *s) add(v);
   for (const auto& w : r.series.wall_force_n)
@@ -184,7 +192,7 @@ TEST(RunCase, RainKeepsItsRateAndStopsAtItsLevel) {
   c.expected_max_speed_m_s = 1.5;
   c.duration_s = 0.04;
   const CaseResult r = run_case(c, {}, b.context);
-  EXPECT_NEAR(r.mass_put_in_kg, 1e-3 * 0.02, 1e-6);   // one of the largest grains
+  EXPECT_NEAR(r.mass_put_in_kg, 1e-3 * 0.02, 1e-6);  // one of the largest grains
   EXPECT_EQ(r.rain_starved_kg.size(), 1u);
   expect_book(r);
   // level: the bed may not grow past it by more than what is in the air (0.35 g/s x 50 ms fall at most)
@@ -202,7 +210,7 @@ TEST(RunCase, RainThatFindsNoRoomIsCountedAsStarved) {
   c.fills.clear();
   c.gravity_m_s2 = Vec3::Zero();
   c.duration_s = 0.01;
-  c.rains = {{"rain", Vec3(0, -0.001, 0.012), Vec3(0.004, 0.001, 0.013), {1, 0}, 0.01, {}, Vec3::Zero(), std::nan("")}};   // nothing moves away
+  c.rains = {{"rain", Vec3(0, -0.001, 0.012), Vec3(0.004, 0.001, 0.013), {1, 0}, 0.01, {}, Vec3::Zero(), std::nan("")}};  // nothing moves away
   const CaseResult r = run_case(c, {}, b.context);
   EXPECT_NEAR(r.mass_put_in_kg + r.rain_starved_kg[0], 1e-4, 1e-6);
   EXPECT_GT(r.rain_starved_kg[0], 5e-5);
@@ -215,14 +223,15 @@ TEST(RunCase, HandedOverGrainsAppearAtTheirTime) {
   c.counters.clear();
   c.gravity_m_s2 = Vec3::Zero();
   c.duration_s = 0.02;
-  c.handed_over = {{0.01, Vec3(0.001, 0, 0.01), Vec3(0.1, 0, 0), Vec3(1, 2, 3), 5e-4, 1, 77}, {0, Vec3(0.003, 0, 0.01), Vec3::Zero(), Vec3::Zero(), 4e-4, 0, 5}};
+  c.handed_over = {{0.01, Vec3(0.001, 0, 0.01), Vec3(0.1, 0, 0), Vec3(1, 2, 3), 5e-4, 1, 77},
+                   {0, Vec3(0.003, 0, 0.01), Vec3::Zero(), Vec3::Zero(), 4e-4, 0, 5}};
   const CaseResult r = run_case(c, {}, b.context);
   ASSERT_EQ(r.final_state.size(), 2u);
   const GrainRecord& g = r.final_state[1];
   EXPECT_EQ(g.species, 1);
   EXPECT_EQ(g.diameter_m, 5e-4);
   EXPECT_EQ(g.spin_rad_s, Vec3(1, 2, 3));
-  EXPECT_NEAR(g.position_m.x(), 0.001 + 0.1 * 0.01, 0.1 * 11 * r.time_step_s);   // insertion every 10 steps
+  EXPECT_NEAR(g.position_m.x(), 0.001 + 0.1 * 0.01, 0.1 * 11 * r.time_step_s);  // insertion every 10 steps
   expect_book(r);
 }
 TEST(RunCase, GrainsLeavingTheBoxAreLostToTheBook) {
@@ -231,7 +240,7 @@ TEST(RunCase, GrainsLeavingTheBoxAreLostToTheBook) {
   c.counters.clear();
   c.walls.clear();
   c.duration_s = 0.06;
-  const CaseResult r = run_case(c, {}, b.context);   // everything falls out: 18 mm take 0.05 s from -0.1 m/s
+  const CaseResult r = run_case(c, {}, b.context);  // everything falls out: 18 mm take 0.05 s from -0.1 m/s
   EXPECT_EQ(r.final_state.size(), 0u);
   EXPECT_NEAR(r.mass_lost_box_kg, r.mass_put_in_kg, 1e-13 * r.mass_put_in_kg);
 }
@@ -247,10 +256,11 @@ std::string error_of(const Case& c) {
 }
 TEST(RunCase, BlowUpNamesGrainPlaceTimeAndCause) {
   Case c = hopper();
-  c.time_step_s = 4e-4;   // far beyond stability
+  c.time_step_s = 4e-4;  // far beyond stability
   const std::string text = error_of(c);
-  for (const char* part : {"grain ", "powder '", "reached", "m/s at t =", "limit 2 m/s", "likely cause", "try"}) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
-  Case crushed = hopper();   // a wall that sweeps through the hopper
+  for (const char* part : {"grain ", "powder '", "reached", "m/s at t =", "limit 2 m/s", "likely cause", "try"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+  Case crushed = hopper();  // a wall that sweeps through the hopper
   Wall ram = scene::plane(Vec3(0, 0, 0.03), Vec3(0, 0, -1));
   ram.motion.velocity_m_s = Vec3(0, 0, -1.9);
   crushed.walls.push_back(ram);
@@ -268,7 +278,11 @@ TEST(RunCase, BadCasesAreRefused) {
   EXPECT_NE(broken([](Case& c) { c.fills[0].powder_mass_fractions = {0.4, 0.4}; }).find("add up to 1"), std::string::npos);
   EXPECT_NE(broken([](Case& c) { c.fills[0].mass_kg = 1; }).find("holds"), std::string::npos);
   EXPECT_NE(broken([](Case& c) { c.materials.pairs[0].restitution = 0; }).find("restitution"), std::string::npos);
-  EXPECT_NE(broken([](Case& c) { c.box.high.x() = 0.001; c.fills[0].mass_kg = 1e-6; }).find("outside the box"), std::string::npos);
+  EXPECT_NE(broken([](Case& c) {
+              c.box.high.x() = 0.001;
+              c.fills[0].mass_kg = 1e-6;
+            }).find("outside the box"),
+            std::string::npos);
   EXPECT_NE(broken([](Case& c) { c.walls[0].motion.track = {{1, Vec3::Zero()}, {0, Vec3::Zero()}}; }).find("'left'"), std::string::npos);
 }
 }  // namespace

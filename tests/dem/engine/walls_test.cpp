@@ -17,12 +17,16 @@ Triangle tri(const Vec3& a, const Vec3& b, const Vec3& c) { return {a, b, c}; }
 std::vector<Triangle> patchwork() {
   const double u = 1e-3;
   auto p = [u](double x, double y) { return Vec3(x * u, y * u, 0); };
-  return {tri(p(-8, -8), p(8, -8), p(8, -1)),  tri(p(-8, -8), p(8, -1), p(-8, -1)),                                 // long ones below: T-junctions along y = -1
-          tri(p(-8, -1), p(-2, -1), p(0, 0)),  tri(p(-2, -1), p(1, -1), p(0, 0)),   tri(p(1, -1), p(8, -1), p(0, 0)),   // fan at the origin
-          tri(p(8, -1), p(8, 8), p(0, 0)),     tri(p(8, 8), p(-3, 8), p(0, 0)),     tri(p(-3, 8), p(-8, 8), p(0, 0)), tri(p(-8, 8), p(-8, -1), p(0, 0))};
+  return {tri(p(-8, -8), p(8, -8), p(8, -1)), tri(p(-8, -8), p(8, -1), p(-8, -1)),  // long ones below: T-junctions along y = -1
+          tri(p(-8, -1), p(-2, -1), p(0, 0)), tri(p(-2, -1), p(1, -1), p(0, 0)),   tri(p(1, -1), p(8, -1), p(0, 0)),  // fan at the origin
+          tri(p(8, -1), p(8, 8), p(0, 0)),    tri(p(8, 8), p(-3, 8), p(0, 0)),     tri(p(-3, 8), p(-8, 8), p(0, 0)),
+          tri(p(-8, 8), p(-8, -1), p(0, 0))};
 }
 
-struct Track { std::vector<Vec3> position, spin, force; std::size_t most_contacts = 0; };
+struct Track {
+  std::vector<Vec3> position, spin, force;
+  std::size_t most_contacts = 0;
+};
 Track roll_over(const Wall& wall, const Vec3& start, const Vec3& velocity) {
   Simulation sim(setup(2e-6, powder(0.5, 0.4, 0.05, 0.3), kGravity));
   sim.add_wall(wall);
@@ -38,9 +42,9 @@ Track roll_over(const Wall& wall, const Vec3& start, const Vec3& velocity) {
 }
 /// 6.3: the mesh is the plane. 1e-9 relative to size, speed and weight: only rounding of the nearest point differs.
 TEST(Mesh, CoplanarTrianglesAreThePlane) {
-  const Vec3 paths[][2] = {{Vec3(-4e-3, -1e-3, 0), Vec3(0.3, 0, 0)},                       // along the T-junction edge
-                           {Vec3(-4e-3, -2e-3, 0), Vec3(0.2, 0.1, 0)},                     // through the fan vertex exactly
-                           {Vec3(2e-3, -3e-3, 0), Vec3(-0.1, 0.25, 0)},                    // across several edges
+  const Vec3 paths[][2] = {{Vec3(-4e-3, -1e-3, 0), Vec3(0.3, 0, 0)},     // along the T-junction edge
+                           {Vec3(-4e-3, -2e-3, 0), Vec3(0.2, 0.1, 0)},   // through the fan vertex exactly
+                           {Vec3(2e-3, -3e-3, 0), Vec3(-0.1, 0.25, 0)},  // across several edges
                            {Vec3(-4e-3, -4e-3 * 6.5 / 16 + 1e-5, 0), Vec3(0.3, 0.02, 0)}};
   for (const auto& path : paths) {
     const Track a = roll_over(plane(), path[0], path[1]), b = roll_over(mesh(patchwork()), path[0], path[1]);
@@ -97,10 +101,10 @@ TEST(Mesh, RotatingMeshCarriesAndFloorForceIsTheWeight) {
   const double r = 3e-4, m = 4.0 / 3 * std::numbers::pi * r * r * r * 1900;
   // Starts with the turntable: stays on its circle because 25 / s^2 * 2 mm << mu g (it may creep by the rolling spring only).
   const GrainId g = sim.add_grain(grain(Vec3(2e-3, 0, r - 1e-7), r, Vec3(0, 5 * 2e-3, 0), Vec3(0, 0, 5)));
-  sim.step(25000);   // 0.1 s = 0.5 rad
+  sim.step(25000);  // 0.1 s = 0.5 rad
   const Vec3 p = sim.grain(g).position_m;
   EXPECT_NEAR(std::atan2(p.y(), p.x()), 0.5, 5e-3);
-  EXPECT_NEAR(sim.wall_load(0).force_n.z() / (-m * 9.81), 1, 1e-4);   // 6.9
+  EXPECT_NEAR(sim.wall_load(0).force_n.z() / (-m * 9.81), 1, 1e-4);  // 6.9
 }
 
 /// 6.5: R* = R inside a cylinder; the static overlap is that on a plane.
@@ -123,9 +127,9 @@ TEST(Cylinder, OutsideAndOpenEnds) {
   w.shape = CylinderShape{Vec3(0, 0, 0), Vec3::UnitZ(), 0.01, 0.002, false};
   sim.add_wall(w);
   const double r = 3e-4;
-  sim.add_grain(grain(Vec3(0.002 + 0.9 * r, 0, 0.005), r));                 // on the side
-  sim.add_grain(grain(Vec3(0.002, 0, 0.01 + 0.95 * r), r));                 // on the rim
-  sim.add_grain(grain(Vec3(0, 0.0019, 0.01 + 1.5 * r), r));                 // above the open end
+  sim.add_grain(grain(Vec3(0.002 + 0.9 * r, 0, 0.005), r));  // on the side
+  sim.add_grain(grain(Vec3(0.002, 0, 0.01 + 0.95 * r), r));  // on the rim
+  sim.add_grain(grain(Vec3(0, 0.0019, 0.01 + 1.5 * r), r));  // above the open end
   sim.evaluate_forces();
   const auto c = sim.contacts();
   ASSERT_EQ(c.size(), 2u);
@@ -135,8 +139,8 @@ TEST(Cylinder, OutsideAndOpenEnds) {
   EXPECT_LT((c[1].normal + Vec3::UnitZ()).norm(), 1e-9);
 }
 
-/// 6.2: take-off and landing phase of a grain on a vibrating plate. The table holds for a plate that is hard against gravity: with E = 1e9 the static overlap is
-/// 2e-4 of the amplitude; 0.5 % instead of 0.2 % because the table ends the contact at zero load, a Hertz spring at zero overlap.
+/// 6.2: take-off and landing phase of a grain on a vibrating plate. The table holds for a plate that is hard against gravity: with E = 1e9 the static
+/// overlap is 2e-4 of the amplitude; 0.5 % instead of 0.2 % because the table ends the contact at zero load, a Hertz spring at zero overlap.
 TEST(Motion, VibratingPlateTakeOffAndLanding) {
   const double table[][3] = {{1.5, .729728, 4.295944}, {2.0, .523599, 5.182450}, {3.0, .339837, 6.307445}};
   for (const auto& row : table) {
@@ -148,7 +152,7 @@ TEST(Motion, VibratingPlateTakeOffAndLanding) {
     plate.motion.vibration_amplitude_m = Vec3(0, 0, amplitude);
     plate.motion.vibration_hz = hz;
     sim.add_wall(plate);
-    sim.add_grain(grain(Vec3(0, 0, r), r, Vec3(0, 0, amplitude * w)));   // starts with the plate: no kick at t = 0
+    sim.add_grain(grain(Vec3(0, 0, r), r, Vec3(0, 0, amplitude * w)));  // starts with the plate: no kick at t = 0
     double off = 0, on = 0;
     sim.step(static_cast<std::int64_t>(0.1 / w / dt));
     while (sim.time_s() * w < 7 && on == 0) {
@@ -167,10 +171,10 @@ TEST(Motion, VibrationScheduleRestartsAndComesToRestAtZero) {
   m.vibration_hz = 100;
   m.vibrate_when = {{0.1, 0.123}, {0.2, 0.25}};
   EXPECT_EQ(vibration_offset(m, 0.05).z(), 0);
-  EXPECT_NEAR(vibration_offset(m, 0.1025).z(), 1e-3, 1e-12);    // a quarter period after `on`
-  EXPECT_NEAR(vibration_offset(m, 0.1244).z(), 1e-3 * std::sin(2 * std::numbers::pi * 2.44), 1e-12);   // finishes its half swing …
-  EXPECT_EQ(vibration_offset(m, 0.1251).z(), 0);                // … and stops at zero
-  EXPECT_NEAR(vibration_offset(m, 0.2025).z(), 1e-3, 1e-12);    // starts anew
+  EXPECT_NEAR(vibration_offset(m, 0.1025).z(), 1e-3, 1e-12);                                          // a quarter period after `on`
+  EXPECT_NEAR(vibration_offset(m, 0.1244).z(), 1e-3 * std::sin(2 * std::numbers::pi * 2.44), 1e-12);  // finishes its half swing …
+  EXPECT_EQ(vibration_offset(m, 0.1251).z(), 0);                                                      // … and stops at zero
+  EXPECT_NEAR(vibration_offset(m, 0.2025).z(), 1e-3, 1e-12);                                          // starts anew
   EXPECT_EQ(vibration_offset(m, 0.26).z(), 0);
 }
 /// 4.2: a grain dropped on a belt of speed V: v = 2V/7, wR = 5V/7 at t = 2V/(7 mu g). 0.5 %.
@@ -183,10 +187,10 @@ TEST(Motion, BeltSetsAGrainRolling) {
   const double m = 4.0 / 3 * std::numbers::pi * r * r * r * 1900, young = 1e7 / (2 * (1 - 0.0625));
   const GrainId g = sim.add_grain(grain(Vec3(0, 0, r - std::pow(3 * m * 9.81 / (4 * young * std::sqrt(r)), 2.0 / 3)), r));
   sim.step(static_cast<std::int64_t>(0.5 * t / dt));
-  EXPECT_NEAR(sim.grain(g).velocity_m_s.y() / (belt / 7), 1, 5e-3);   // half way: v = mu g t
+  EXPECT_NEAR(sim.grain(g).velocity_m_s.y() / (belt / 7), 1, 5e-3);  // half way: v = mu g t
   sim.step(static_cast<std::int64_t>(0.7 * t / dt));
   EXPECT_NEAR(sim.grain(g).velocity_m_s.y() / (2 * belt / 7), 1, 5e-3);
-  EXPECT_NEAR(-sim.grain(g).spin_rad_s.x() * r / (-5 * belt / 7), 1, 5e-3);   // the belt drags the underside forward: backward spin
+  EXPECT_NEAR(-sim.grain(g).spin_rad_s.x() * r / (-5 * belt / 7), 1, 5e-3);  // the belt drags the underside forward: backward spin
 }
 TEST(Motion, TrackAndIntervals) {
   Simulation sim(setup(1e-4));
@@ -206,7 +210,7 @@ TEST(Motion, WallIsThereOnlyWhilePresent) {
   const GrainId g = sim.add_grain(grain(Vec3(0, 0, 3e-4), 3e-4));
   sim.step(1000);
   EXPECT_GT(sim.grain(g).position_m.z(), 2.9e-4);
-  sim.step(2000);   // falls g t^2 / 2 = 2 mm in 20 ms
+  sim.step(2000);  // falls g t^2 / 2 = 2 mm in 20 ms
   EXPECT_NEAR(sim.grain(g).position_m.z(), 3e-4 - 0.5 * 9.81 * 4e-4, 2e-5);
 }
 TEST(Walls, BadShapesAreRefusedByName) {

@@ -18,8 +18,8 @@ struct Motion {
   double shear = 0, d_xx = 0, d_yy = 0, d_zz = 0;  // 1/s, m^2/s
 };
 
-/// Grains of 0.4 mm in a slab, y periodic with the length of the grid (positions unwrapped), z folded at 0 and kHeight; Euler steps of one frame whose
-/// mean displacement uses the midpoint height: the estimator's model exactly.
+/// Grains of 0.4 mm in a slab, y periodic with the length of the grid (positions unwrapped), z folded at 0 and kHeight; Euler steps of one frame
+/// whose mean displacement uses the midpoint height: the estimator's model exactly.
 std::vector<Snapshot> brownian(int grains, int frames, const Motion& m, std::uint64_t seed) {
   std::vector<Snapshot> out(static_cast<std::size_t>(frames));
   std::vector<Vec3> x(static_cast<std::size_t>(grains));
@@ -41,7 +41,8 @@ std::vector<Snapshot> brownian(int grains, int frames, const Motion& m, std::uin
       double z1 = z0 + std::sqrt(2 * m.d_zz * kFrame_s) * rng.normal();
       if (z1 < 0) z1 = -z1;
       if (z1 > kHeight) z1 = 2 * kHeight - z1;
-      x[k] += Vec3(std::sqrt(2 * m.d_xx * kFrame_s) * rng.normal(), m.shear * 0.5 * (z0 + z1) * kFrame_s + std::sqrt(2 * m.d_yy * kFrame_s) * rng.normal(), z1 - z0);
+      x[k] += Vec3(std::sqrt(2 * m.d_xx * kFrame_s) * rng.normal(),
+                   m.shear * 0.5 * (z0 + z1) * kFrame_s + std::sqrt(2 * m.d_yy * kFrame_s) * rng.normal(), z1 - z0);
     }
   }
   return out;
@@ -83,7 +84,8 @@ TEST(WindowFields, uniform_shear_without_diffusion_is_exact) {
       const std::size_t c = kGrid.index(i, j);
       EXPECT_NEAR(fields.velocity_y_m_s[c], kShear * (j + 0.5) * kCell, 1e-12);  // rounding: sums of ~ 50 numbers of 0.2 m/s
       EXPECT_NEAR(fields.velocity_z_m_s[c], 0, 1e-15);
-      // Nothing left after subtracting the flow along the path: the gradient inside cells (also the outer ones) is used, 1e-12 of (0.2 m/s)^2 * 0.01 s.
+      // Nothing left after subtracting the flow along the path: the gradient inside cells (also the outer ones) is used, 1e-12 of (0.2 m/s)^2 * 0.01
+      // s.
       EXPECT_NEAR(fields.d_yy_m2_s[c], 0, 4e-16);
       EXPECT_NEAR(fields.d_yz_m2_s[c], 0, 4e-16);
     }
@@ -166,7 +168,8 @@ TEST(WindowFields, cells_with_few_samples_are_masked) {
     const bool few = fields.samples[c] < 20;
     masked += few;
     if (!few) continue;
-    for (const auto* v : {&fields.solid_fraction, &fields.velocity_y_m_s, &fields.d_xx_m2_s, &fields.d_yy_m2_s, &fields.d_zz_m2_s}) EXPECT_EQ((*v)[c], 0);
+    for (const auto* v : {&fields.solid_fraction, &fields.velocity_y_m_s, &fields.d_xx_m2_s, &fields.d_yy_m2_s, &fields.d_zz_m2_s})
+      EXPECT_EQ((*v)[c], 0);
   }
   EXPECT_GE(masked, 40);
   EXPECT_LT(masked, 80);
@@ -292,14 +295,16 @@ TEST(Stationarity, each_drift_is_caught) {
   EXPECT_GT(velocity.velocity_change_sigmas, 3);
 
   const auto heating = check_stationarity(changed([](Snapshot& s, double t) {
-    for (Vec3& v : s.velocity_m_s) v *= 1 + 0.05 * t;
-  }), kGrid, true);
+                                            for (Vec3& v : s.velocity_m_s) v *= 1 + 0.05 * t;
+                                          }),
+                                          kGrid, true);
   EXPECT_FALSE(heating.ok);
   EXPECT_NEAR(heating.kinetic_energy_drift, 0.05, 0.01);  // energy grows by 10 % over the window, halves differ by half of that
 
   const auto rising = check_stationarity(changed([](Snapshot& s, double t) {
-    for (Vec3& x : s.position_m) x.z() *= 1 - 0.1 * t;
-  }), kGrid, true);
+                                           for (Vec3& x : s.position_m) x.z() *= 1 - 0.1 * t;
+                                         }),
+                                         kGrid, true);
   EXPECT_FALSE(rising.ok);
   EXPECT_NEAR(rising.height_drift, 0.05, 0.01);
 }

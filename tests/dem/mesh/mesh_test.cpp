@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -38,7 +38,8 @@ class MeshFiles : public ::testing::Test {
 };
 
 std::string ascii_triangle(const std::string& last = "0 30 5") {
-  return "solid part\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 20 0 0\n   vertex " + last + "\n  endloop\n endfacet\nendsolid part\n";
+  return "solid part\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 20 0 0\n   vertex " + last +
+         "\n  endloop\n endfacet\nendsolid part\n";
 }
 
 std::string binary_stl(std::uint32_t claimed, std::uint32_t written) {
@@ -93,9 +94,7 @@ TEST_F(MeshFiles, nan_in_a_binary_file_is_refused) {
   expect_refused(write("nan_binary.stl", bytes), "finite");
 }
 
-TEST_F(MeshFiles, too_many_triangles_are_refused) {
-  expect_refused(write("huge.stl", binary_stl(2'000'001, 2'000'001)), "simplify");
-}
+TEST_F(MeshFiles, too_many_triangles_are_refused) { expect_refused(write("huge.stl", binary_stl(2'000'001, 2'000'001)), "simplify"); }
 
 TEST_F(MeshFiles, scale_must_be_positive) {
   const auto file = write("a.stl", ascii_triangle());

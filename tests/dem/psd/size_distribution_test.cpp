@@ -25,7 +25,8 @@ struct Quantiles {
 
 TEST(SizeDistribution, mass_quantiles_of_the_three_spray_dried_laws) {
   // verification.md 7.4 prints two decimals of a micrometre: half a unit of the last digit. The law there has no lower cut; 1e-3 um stands in.
-  for (const Quantiles& q : {Quantiles{350, 2.5, 142.28, 302.27, 488.60}, Quantiles{375, 2.75, 165.44, 328.21, 507.86}, Quantiles{400, 3, 188.92, 354.00, 528.20}}) {
+  for (const Quantiles& q :
+       {Quantiles{350, 2.5, 142.28, 302.27, 488.60}, Quantiles{375, 2.75, 165.44, 328.21, 507.86}, Quantiles{400, 3, 188.92, 354.00, 528.20}}) {
     const SizeDistribution psd = weibull(q.scale_um, q.shape, 1e-3);
     EXPECT_NEAR(mass_quantile(psd, 0.1) / kUm, q.d10_um, 0.005);
     EXPECT_NEAR(mass_quantile(psd, 0.5) / kUm, q.d50_um, 0.005);
@@ -47,7 +48,8 @@ TEST(SizeDistribution, grains_per_gram_of_the_reference_table) {
     double cut_um, n350, n375, n400;
   };
   // verification.md 7.4, rho 2000, four digits given: 5e-4 relative covers the last one.
-  for (const Row& row : {Row{50, 1.668e5, 1.188e5, 8.466e4}, Row{100, 8.455e4, 6.827e4, 5.452e4}, Row{150, 5.124e4, 4.446e4, 3.802e4}, Row{200, 3.364e4, 3.062e4, 2.745e4}}) {
+  for (const Row& row : {Row{50, 1.668e5, 1.188e5, 8.466e4}, Row{100, 8.455e4, 6.827e4, 5.452e4}, Row{150, 5.124e4, 4.446e4, 3.802e4},
+                         Row{200, 3.364e4, 3.062e4, 2.745e4}}) {
     const auto per_gram = [&](double scale, double shape) { return 1e-3 / mean_grain_mass(weibull(scale, shape, row.cut_um), 2000, 1); };
     EXPECT_NEAR(per_gram(350, 2.5) / row.n350, 1, 5e-4) << row.cut_um;
     EXPECT_NEAR(per_gram(375, 2.75) / row.n375, 1, 5e-4) << row.cut_um;
@@ -148,9 +150,10 @@ TEST(SizeDistribution, far_tail_does_not_underflow) {
 
 TEST(SizeDistribution, refuses_impossible_laws) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  for (const SizeDistribution& bad : {SizeDistribution{4e-4, 3, 0, 1e-3}, SizeDistribution{4e-4, 3, -1e-4, 1e-3}, SizeDistribution{4e-4, 3, 5e-4, 4e-4},
-                                      SizeDistribution{4e-4, 3, 1e-4, inf}, SizeDistribution{0, 3, 1e-4, 1e-3}, SizeDistribution{4e-4, 0, 1e-4, 1e-3},
-                                      SizeDistribution{nan, 3, 1e-4, 1e-3}, SizeDistribution{4e-4, nan, 1e-4, 1e-3}, SizeDistribution{4e-4, 3, nan, 1e-3}}) {
+  for (const SizeDistribution& bad :
+       {SizeDistribution{4e-4, 3, 0, 1e-3}, SizeDistribution{4e-4, 3, -1e-4, 1e-3}, SizeDistribution{4e-4, 3, 5e-4, 4e-4},
+        SizeDistribution{4e-4, 3, 1e-4, inf}, SizeDistribution{0, 3, 1e-4, 1e-3}, SizeDistribution{4e-4, 0, 1e-4, 1e-3},
+        SizeDistribution{nan, 3, 1e-4, 1e-3}, SizeDistribution{4e-4, nan, 1e-4, 1e-3}, SizeDistribution{4e-4, 3, nan, 1e-3}}) {
     EXPECT_THROW(mass_cdf(bad, 3e-4), UsageError);
     EXPECT_THROW(mass_quantile(bad, 0.5), UsageError);
     EXPECT_THROW(mean_grain_mass(bad, 2000, 1), UsageError);

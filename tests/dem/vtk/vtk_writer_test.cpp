@@ -28,7 +28,8 @@ class VtkFiles : public ::testing::Test {
 template <class T>
 std::vector<T> array_of(const std::string& text, const std::string& type, const std::string& name) {
   std::smatch match;
-  const std::regex declaration("<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"\\d\" format=\"appended\" offset=\"(\\d+)\"/>");
+  const std::regex declaration("<DataArray type=\"" + type + "\" Name=\"" + name +
+                               "\" NumberOfComponents=\"\\d\" format=\"appended\" offset=\"(\\d+)\"/>");
   const std::string header = text.substr(0, text.find("<AppendedData"));
   if (!std::regex_search(header, match, declaration)) {
     ADD_FAILURE() << "no array " << name;

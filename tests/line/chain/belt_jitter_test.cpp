@@ -22,7 +22,8 @@ Bed random_bed() {
 }
 
 TEST(BeltJitter, HasTheAskedSizeAndLength) {
-  // Mean square over 200 seeds; 10 mm of independent stretches per strip and 200 strips give a relative standard error of the variance of about sqrt(2 / 2000) = 3 %; 5 sigma.
+  // Mean square over 200 seeds; 10 mm of independent stretches per strip and 200 strips give a relative standard error of the variance of about
+  // sqrt(2 / 2000) = 3 %; 5 sigma.
   double square = 0, product = 0;
   int n = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -34,7 +35,8 @@ TEST(BeltJitter, HasTheAskedSizeAndLength) {
     }
   }
   EXPECT_NEAR(square / n, 4e-6, 0.15 * 4e-6);
-  // Correlation exp(-1) at one correlation length, less the constant wave that is left out (its share of the variance: sqrt(pi) * 0.2 / 2 = 0.18): (exp(-1) - 0.18) / 0.82 = 0.23.
+  // Correlation exp(-1) at one correlation length, less the constant wave that is left out (its share of the variance: sqrt(pi) * 0.2 / 2 = 0.18):
+  // (exp(-1) - 0.18) / 0.82 = 0.23.
   EXPECT_NEAR(product / square, 0.23, 0.07);
 }
 
@@ -72,7 +74,8 @@ TEST(BeltJitter, MovesALineWhereTheFieldSays) {
     mass += m, moment += m * (j + 0.5) * bed.grid.pitch_m;
   }
   const double y = (row + 0.5) * bed.grid.pitch_m;
-  // The landing interval is spread evenly over grid cells, which moves the centroid by less than a tenth of a 5 mm cell for a shift within a cell or two.
+  // The landing interval is spread evenly over grid cells, which moves the centroid by less than a tenth of a 5 mm cell for a shift within a cell or
+  // two.
   EXPECT_NEAR(moment / mass, y + f.displacement_m(y), 0.5e-3);
 }
 

@@ -21,7 +21,11 @@ graphics::VeinPlan stripe(const LineBasics& b) {
 
 struct Bench {
   explicit Bench(const std::string& chain = R"([{"stage":"dose"},{"stage":"squeeze"}])")
-      : stages(fake::stages()), config(load_line_config_text(fake::config_text(chain), "/", {}, stages)), store(folder.path()), log(make_null_log()), progress(make_null_progress()),
+      : stages(fake::stages()),
+        config(load_line_config_text(fake::config_text(chain), "/", {}, stages)),
+        store(folder.path()),
+        log(make_null_log()),
+        progress(make_null_progress()),
         context{*log, *progress, store, 7, 2, &stop} {}
   std::vector<Operator> operators() {
     std::vector<Operator> out;
@@ -76,7 +80,9 @@ TEST(RunChain, StopIsHeard) {
   EXPECT_THROW(apply_chain(t.config, t.config.basics, operators, commands, JitterField{}, {}, t.context), Interrupted);
 }
 
-TEST(RunChain, LogLine) { EXPECT_EQ(stage_border_line({"press", 1.204, 1.204, 1.82, {}}), "press               1.82 s  mass in 1.2040 kg  out 1.2040 kg"); }
+TEST(RunChain, LogLine) {
+  EXPECT_EQ(stage_border_line({"press", 1.204, 1.204, 1.82, {}}), "press               1.82 s  mass in 1.2040 kg  out 1.2040 kg");
+}
 
 TEST(Operators, SecondTimeComesFromTheStore) {
   Bench t;

@@ -67,7 +67,8 @@ TEST(LineConfig, OperatorInputsIgnoreWhatASliceCannotKnow) {
 
 TEST(LineConfig, CrossFieldMistakes) {
   EXPECT_NE(refused(fake::config_text(), {{"/powders/1/granule_density_kg_m3", "1700"}}).find("granule densities differ"), std::string::npos);
-  EXPECT_NE(refused(fake::config_text(), {{"/powders/1/role", "\"body\""}}).find("one powder with role body and one with role vein"), std::string::npos);
+  EXPECT_NE(refused(fake::config_text(), {{"/powders/1/role", "\"body\""}}).find("one powder with role body and one with role vein"),
+            std::string::npos);
   EXPECT_NE(refused(fake::config_text(), {{"/powders/1/name", "\"white\""}}).find("two powders are called 'white'"), std::string::npos);
   EXPECT_NE(refused(fake::config_text(), {{"/powders/0/upper_cut_um", "100"}}).find("upper cut is below the lower cut"), std::string::npos);
   EXPECT_NE(refused(fake::config_text(), {{"/grid", R"({"pitch_mm":2})"}}).find("not a whole number of columns"), std::string::npos);
@@ -111,7 +112,8 @@ TEST(LineConfig, DescribesAndHasASchema) {
   const auto stages = fake::stages();
   const auto root = line_config_root(stages);
   const auto text = describe_config_text(root);
-  for (const char* key : {"belt_speed_m_s", "fired_width_mm", "darkness_threshold", "print_dpi", "speed_m_s", "correlation_mm"}) EXPECT_NE(text.find(key), std::string::npos) << key;
+  for (const char* key : {"belt_speed_m_s", "fired_width_mm", "darkness_threshold", "print_dpi", "speed_m_s", "correlation_mm"})
+    EXPECT_NE(text.find(key), std::string::npos) << key;
   EXPECT_NE(config_json_schema(root, "venato-line").find("2020-12"), std::string::npos);
 }
 }  // namespace

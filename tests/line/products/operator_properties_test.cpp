@@ -1,6 +1,8 @@
 // MS1-MS6 of multiscale.md 2.5 on random and Gaussian operators.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/line/products/random_operator.h"
 
 using namespace venato;

@@ -10,6 +10,7 @@ TEST(RunSyncLong, FractionMapOfVeinsThatWereNotPlannedThisWay) {
   c.write_fractions(5);
   c.write_graphic(5);
   expect_registered(c);
+  EXPECT_EQ(c.score().at("details").at("evidence"), "vein fraction against lightness");
 }
 
 TEST(RunSyncLong, CameraPictureAndGraphic) {

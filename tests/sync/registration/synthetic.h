@@ -73,11 +73,15 @@ inline double sample(const graphics::RasterF& f, Point p) {
   return sum;
 }
 
-/// True map of a slab: similarity and stretch about the slab's centre, plus a smooth sum of plane waves (250 to 600 mm) of largest length amplitude_m.
+/// True map of a slab: similarity and stretch about the slab's centre, plus a smooth sum of plane waves (250 to 600 mm) of largest length
+/// amplitude_m.
 struct Truth {
   Eigen::Matrix2d a = Eigen::Matrix2d::Identity();
   Point t = Point::Zero();
-  struct Wave { Point k, direction; double phase; };
+  struct Wave {
+    Point k, direction;
+    double phase;
+  };
   std::vector<Wave> waves;
   double gain = 0;
   Point operator()(Point p) const {
@@ -86,7 +90,10 @@ struct Truth {
     return a * (p + gain * u) + t;
   }
 };
-struct WarpSettings { double rotation_rad = 0, stretch_x = 1, stretch_y = 1, amplitude_m = 0; Point shift_m = Point::Zero(); };
+struct WarpSettings {
+  double rotation_rad = 0, stretch_x = 1, stretch_y = 1, amplitude_m = 0;
+  Point shift_m = Point::Zero();
+};
 inline Truth make_truth(const WarpSettings& s, double width_m, double height_m, std::uint64_t seed) {
   Truth out;
   Eigen::Matrix2d rotation;
@@ -97,7 +104,8 @@ inline Truth make_truth(const WarpSettings& s, double width_m, double height_m, 
   Rng rng(seed, stream_id("tests/sync/truth"));
   for (int k = 0; k < 8; ++k) {
     const double wavelength = 0.25 + 0.35 * rng.uniform(), heading = 2 * M_PI * rng.uniform(), sense = 2 * M_PI * rng.uniform();
-    out.waves.push_back({2 * M_PI / wavelength * Point(std::cos(heading), std::sin(heading)), Point(std::cos(sense), std::sin(sense)), 2 * M_PI * rng.uniform()});
+    out.waves.push_back(
+        {2 * M_PI / wavelength * Point(std::cos(heading), std::sin(heading)), Point(std::cos(sense), std::sin(sense)), 2 * M_PI * rng.uniform()});
   }
   double largest = 0;
   for (double y = 0; y <= height_m; y += 0.01)
@@ -110,7 +118,10 @@ inline Truth make_truth(const WarpSettings& s, double width_m, double height_m, 
   return out;
 }
 
-struct SlabSettings { double blur_mm = 2, noise = 0.03, faded_share = 0.3, fade_to = 0.3; int width = 600, height = 1200; };
+struct SlabSettings {
+  double blur_mm = 2, noise = 0.03, faded_share = 0.3, fade_to = 0.3;
+  int width = 600, height = 1200;
+};
 /// The slab that a graphic of this evidence produces under `truth`: warped, blurred, a band of it faded, noise added.
 inline graphics::RasterF make_slab(const graphics::RasterF& print, const Truth& truth, const SlabSettings& s, std::uint64_t seed) {
   graphics::RasterF slab(s.width, s.height, 1, print.pitch_m);
@@ -136,7 +147,8 @@ inline graphics::RasterF make_slab(const graphics::RasterF& print, const Truth& 
 }
 
 /// |error| in mm of a found map on the slab's veins (plan > 0.5), every `step` pixels.
-inline std::vector<double> errors_on_veins_mm(const Registration& r, const Truth& truth, const graphics::RasterF& plan_print, int width, int height, int step = 3) {
+inline std::vector<double> errors_on_veins_mm(const Registration& r, const Truth& truth, const graphics::RasterF& plan_print, int width, int height,
+                                              int step = 3) {
   std::vector<double> out;
   for (int j = 0; j < height; j += step)
     for (int i = 0; i < width; i += step) {

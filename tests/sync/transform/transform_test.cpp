@@ -96,7 +96,8 @@ TEST(Transform, FoldsAndSingularMapsAreRefused) {
   Transform fold;
   fold.u = make_zero_field(0.6, 0.6, 0.1);
   for (int j = 0; j < fold.u.ny; ++j)
-    for (int i = 0; i < fold.u.nx; ++i) fold.u.cx[static_cast<std::size_t>(j * fold.u.nx + i)] = -1.5 * (i - 1) * 0.1;  // x -> -x/2: orientation reversed
+    for (int i = 0; i < fold.u.nx; ++i)
+      fold.u.cx[static_cast<std::size_t>(j * fold.u.nx + i)] = -1.5 * (i - 1) * 0.1;  // x -> -x/2: orientation reversed
   EXPECT_THROW(fold.inverse({0.1, 0.1}), WorkError);
 }
 
