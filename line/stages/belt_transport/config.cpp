@@ -4,7 +4,7 @@ namespace venato::line::belt_transport {
 
 void read(ObjectReader& r, Config& c) {
   r.number("nominal_delay_ms", c.nominal_delay_s, {0, 60000, "ms"},
-           {.help = "delay from landing in the bin to the outlet that the line's controller already takes off", .fallback = 600.0, .placeholder = true});
+           {.help = "delay from landing in the bin to the outlet that the line's controller already takes off", .fallback = 500.0, .placeholder = true});
   r.object(
       "geometry", "section of bin, gate and belts",
       [&](ObjectReader& g) {

@@ -10,7 +10,7 @@ void read(ObjectReader& r, Config& c) {
   r.number("min_on_ms", c.min_on_s, {0, 2000, "ms"}, {.help = "shortest on (and off) time a prong is given", .fallback = 60.0, .placeholder = true});
   r.integer("rows_in_series", c.rows_in_series, {1, 32}, {.help = "rows of prongs along the belt that share one command", .fallback = 4, .placeholder = true});
   r.number("nominal_delay_ms", c.nominal_delay_s, {0, 5000, "ms"},
-           {.help = "delay from command to belt that the line's controller already takes off", .fallback = 120.0, .placeholder = true});
+           {.help = "delay from command to belt that the line's controller already takes off", .fallback = 100.0, .placeholder = true});
   r.object(
       "drive", "piezo drive of a prong",
       [&](ObjectReader& d) {

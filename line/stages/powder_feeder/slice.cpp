@@ -12,7 +12,7 @@ namespace venato::line::powder_feeder {
 namespace {
 constexpr double kTail_s = 0.3;           // after the last closing: the streams run dry
 constexpr double kFeedBand_m = 0.016;     // rain band above the held hopper level
-constexpr double kFeedSpeed_m_s = 1.2;     // fast enough that the rain is never what limits the flow
+constexpr double kFeedSpeed_m_s = 0.8;     // fast enough that the rain is never what limits the flow
 constexpr double kSealSlope = 0.4;         // the gate reaches so far beyond the outlet that powder in the gap above it rests at less than 22 degrees
 constexpr double kHopperClear_m = 0.008;  // between outlet and the counter below it
 }  // namespace
@@ -36,7 +36,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
   const std::size_t n = basics.powders.size();
   std::vector<int> powders(n);
   std::iota(powders.begin(), powders.end(), 0);
-  const double span = static_cast<double>(n - 1) * c.spacing_m + c.outlet_m;
+  const double span = static_cast<double>(n - 1) * c.spacing_m + c.hopper_width_m;
   const double hopper_top = c.drop_m + c.hopper_height_m + kFeedBand_m + 0.004;
   const double reach = std::max(span / 2 + c.outlet_m + 0.03, c.throat_m / 2 + 0.01) + 0.01;
   dem::Case s = make_slice_case(basics, "powder_feeder cycle", c.numerics, powders, -reach, reach, -0.004, hopper_top + 0.004);
@@ -53,8 +53,11 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
     const double middle = (static_cast<double>(k) - 0.5 * static_cast<double>(n - 1)) * c.spacing_m;
     const double low = middle - c.outlet_m / 2, high = middle + c.outlet_m / 2;
     const std::string name = basics.powders[k].name;
-    add_profile_wall(s, "hopper rear " + name, {{low, hopper_top}, {low, c.drop_m}}, LineBasics::kSteel);
-    add_profile_wall(s, "hopper front " + name, {{high, hopper_top}, {high, c.drop_m}}, LineBasics::kSteel);
+    // Upright bin above walls that converge to the outlet: without them the powder would fall through as a plug instead of flowing out (Beverloo).
+    const double slope_z = c.drop_m + 0.5 * (c.hopper_width_m - c.outlet_m) * std::tan(c.hopper_angle_rad);
+    const double bin_low = middle - c.hopper_width_m / 2, bin_high = middle + c.hopper_width_m / 2;
+    add_profile_wall(s, "hopper rear " + name, {{bin_low, hopper_top}, {bin_low, slope_z}, {low, c.drop_m}}, LineBasics::kSteel);
+    add_profile_wall(s, "hopper front " + name, {{bin_high, hopper_top}, {bin_high, slope_z}, {high, c.drop_m}}, LineBasics::kSteel);
     dem::WallMotion slide;
     // Gap of the largest grain: the closing gate crushes none, and the powder seals by its own angle of repose.
     const double play = largest_grain_m(basics, c.numerics.coarse_graining), gate_z = c.drop_m - play, overlap = play / kSealSlope;
@@ -68,17 +71,17 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
     }
     add_profile_wall(s, "actuator " + name, {{low - overlap, gate_z}, {high + overlap, gate_z}}, LineBasics::kSteel, slide);
     dem::Fill fill;
-    fill.low = Vec3(0, low, c.drop_m + 0.0005);
-    fill.high = Vec3(c.numerics.slice_width_m, high, c.drop_m + c.hopper_height_m + 0.8 * kFeedBand_m);
+    fill.low = Vec3(0, bin_low, c.drop_m + 0.0005);
+    fill.high = Vec3(c.numerics.slice_width_m, bin_high, c.drop_m + c.hopper_height_m + 0.8 * kFeedBand_m);
     fill.powder_mass_fractions.assign(n, 0.0);
     fill.powder_mass_fractions[k] = 1;
     s.fills.push_back(fill);
     dem::Rain rain;
     rain.name = "hopper feed " + name;
-    rain.low = Vec3(0, low, c.drop_m + c.hopper_height_m + 0.004);
-    rain.high = Vec3(c.numerics.slice_width_m, high, hopper_top);
+    rain.low = Vec3(0, bin_low, c.drop_m + c.hopper_height_m + 0.004);
+    rain.high = Vec3(c.numerics.slice_width_m, bin_high, hopper_top);
     rain.powder_mass_fractions = fill.powder_mass_fractions;
-    rain.mass_rate_kg_s = 0.04 * c.numerics.slice_width_m / 0.006;   // more than an outlet passes; the level control sets the rate
+    rain.mass_rate_kg_s = 0.03 * c.numerics.slice_width_m / 0.006;   // more than an outlet passes; the level control sets the rate
     rain.level_z_m = c.drop_m + c.hopper_height_m;
     rain.velocity_m_s = Vec3(0, 0, -kFeedSpeed_m_s);
     s.rains.push_back(rain);

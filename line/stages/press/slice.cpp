@@ -49,8 +49,8 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
   s.duration_s = c.settle_s + press_s;
   s.series.every_s = press_s / 60;
   // One frame each: just before the lid moves and just before it stops.
-  s.snapshots.push_back({0.98 * c.settle_s, 0.98 * c.settle_s + 1e-9, 1.0});
-  s.snapshots.push_back({s.duration_s * 0.9995, s.duration_s * 0.9995 + 1e-9, 1.0});
+  s.snapshots.push_back({0.98 * c.settle_s, c.settle_s, s.duration_s});
+  s.snapshots.push_back({c.settle_s + 0.998 * press_s, s.duration_s, s.duration_s});
   return s;
 }
 
