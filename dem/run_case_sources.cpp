@@ -10,7 +10,8 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::int64_t kInsertEvery = 64;   // steps between insertions: each one costs a list build
+constexpr std::int64_t kInsertEvery = 64;   // steps between insertions of rain: each one costs a list build
+constexpr std::int64_t kHandOverEvery = 10; // grains handed over are few and their birth time matters
 constexpr double kRestingSpeed_m_s = 0.15;   // of grains that count for the level: faster ones are still bouncing or sliding down
 constexpr int kAttempts = 30;              // random places tried for one grain before it waits for the next time
 constexpr double kGap = 0.02;              // of a diameter, between neighbours of a fresh fill
@@ -201,8 +202,8 @@ void fill_regions(CaseRun& run) {
 }
 
 void rain_and_hand_over(CaseRun& run) {
+  if (run.sim.step_number() % kHandOverEvery == 0) hand_over(run);
   if (run.sim.step_number() % kInsertEvery != 0) return;
-  hand_over(run);
   for (std::size_t k = 0; k < run.c.rains.size(); ++k) rain(run, k);
 }
 }  // namespace venato::dem

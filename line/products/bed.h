@@ -3,7 +3,7 @@
 #include <vector>
 namespace venato::line {
 
-/// Regular grid of the powder bed in the belt frame. The design lies at [0, width) x [lead, lead + length); the lead-in and lead-out are body
+/// Regular grid of the powder bed in the belt frame. The design lies at [trim, trim + width) x [lead, lead + length); the lead-in and lead-out are body
 /// powder only, so that delays and blurs have room. x has side walls (mirror), y is one period of the endless strip.
 struct BedGrid {
   int nx = 0, ny = 0, nz = 0;  ///< nz mass layers zeta, bottom first, equal mass

@@ -49,7 +49,7 @@ inline double fold(double v, double low, double high) {
 /// Random numbers are keyed by tracer: pair k belongs to step k, so bits depend on neither threads nor other tracers.
 template <class Field>
 Tracer carry(const Field& field, Tracer t, double tau_s, std::int64_t steps, std::uint64_t seed, std::uint64_t tracer) {
-  Rng rng(seed, stream_id("line/projection"), tracer);
+  Rng rng(seed, stream_id("line/tracer_walk"), tracer);
   for (std::int64_t k = 0; k < steps; ++k) {
     const FlowSample here = field.sample(t.y, t.z);
     const double a = rng.normal(), b = rng.normal();

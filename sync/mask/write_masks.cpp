@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "base/io/atomic_file.h"
+#include "base/io/sha256.h"
 #include "base/units.h"
 #include "sync/mask/check_job.h"
-#include "sync/mask/file_digest.h"
 #include "sync/mask/ink_rows.h"
 #include "sync/mask/mask_job.h"
 #include "sync/mask/powder_rows.h"
@@ -206,7 +206,7 @@ MaskSet write_masks(const MaskJob& job, const std::filesystem::path& folder, Con
   for_each_parallel(static_cast<int>(set.files.size()), threads, [&](int k) {
     MaskFile& file = set.files[static_cast<std::size_t>(k)];
     file.bytes = std::filesystem::file_size(staged.path() / file.name);
-    file.sha256 = file_sha256(staged.path() / file.name);
+    file.sha256 = sha256_of_file(staged.path() / file.name);
   });
   write_text_atomically(staged.path() / "masks.json", masks_json_text(job, set));
   staged.publish("masks.json");

@@ -5,8 +5,8 @@ namespace venato::line::press {
 void read(ObjectReader& r, Config& c) {
   r.number("peak_pressure_mpa", c.peak_pressure_pa, {5, 60, "MPa", "press rating"}, {.help = "mean peak pressure", .fallback = 39.2});
   r.number("density_at_1_mpa_kg_m3", c.density_a_kg_m3, {500, 2500, "kg/m3"},
-           {.help = "a of rho = a + b ln(P / 1 MPa), moist green bulk density", .fallback = 1442.0, .placeholder = true});
-  r.number("density_per_ln_mpa_kg_m3", c.density_b_kg_m3, {1, 1000, "kg/m3"}, {.help = "b of rho = a + b ln(P / 1 MPa)", .fallback = 136.0, .placeholder = true});
+           {.help = "a of rho = a + b ln(P / 1 MPa), moist green bulk density (dry density times 1 + moisture)", .fallback = 1521.0, .placeholder = true});
+  r.number("density_per_ln_mpa_kg_m3", c.density_b_kg_m3, {1, 1000, "kg/m3"}, {.help = "b of rho = a + b ln(P / 1 MPa)", .fallback = 143.5, .placeholder = true});
   r.number("lateral_length_factor", c.lateral_length_factor, {0, 5}, {.help = "l_p = factor * pressed thickness in u = -l_p^2 grad(dm/m)", .fallback = 0.5, .placeholder = true});
   r.number("springback_percent", c.springback, {0, 3, "%"}, {.help = "linear expansion in the plane when the pressure is released", .fallback = 0.5, .placeholder = true});
   r.number("edge_gain_mm", c.edge_gain_m, {-20, 20, "mm"}, {.help = "outward displacement of each long edge under pressure", .fallback = 0.8, .placeholder = true});

@@ -212,7 +212,7 @@ TEST(RunCase, RainThatFindsNoRoomIsCountedAsStarved) {
   c.duration_s = 0.01;
   c.rains = {{"rain", Vec3(0, -0.001, 0.012), Vec3(0.004, 0.001, 0.013), {1, 0}, 0.01, {}, Vec3::Zero(), std::nan("")}};  // nothing moves away
   const CaseResult r = run_case(c, {}, b.context);
-  EXPECT_NEAR(r.mass_put_in_kg + r.rain_starved_kg[0], 1e-4, 1e-6);
+  EXPECT_NEAR(r.mass_put_in_kg + r.rain_starved_kg[0], 1e-4, 0.01 * 64 * r.time_step_s);  // rain falls due every 64 steps
   EXPECT_GT(r.rain_starved_kg[0], 5e-5);
   EXPECT_FALSE(r.warnings.empty());
 }

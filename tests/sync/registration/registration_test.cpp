@@ -7,7 +7,7 @@
 #include <memory>
 #include "base/error.h"
 #include "base/store/store.h"
-#include "synthetic.h"
+#include "tests/sync/registration/synthetic.h"
 namespace venato::sync {
 namespace {
 using namespace synthetic;
