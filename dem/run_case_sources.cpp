@@ -10,12 +10,12 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::int64_t kInsertEvery = 64;   // steps between insertions of rain: each one costs a list build
-constexpr std::int64_t kHandOverEvery = 10; // grains handed over are few and their birth time matters
+constexpr std::int64_t kInsertEvery = 64;    // steps between insertions of rain: each one costs a list build
+constexpr std::int64_t kHandOverEvery = 10;  // grains handed over are few and their birth time matters
 constexpr double kRestingSpeed_m_s = 0.15;   // of grains that count for the level: faster ones are still bouncing or sliding down
-constexpr int kAttempts = 30;              // random places tried for one grain before it waits for the next time
-constexpr double kGap = 0.02;              // of a diameter, between neighbours of a fresh fill
-constexpr double kHandOverSqueeze = 0.05;  // overlap of radius that a handed-over grain may start with
+constexpr int kAttempts = 30;                // random places tried for one grain before it waits for the next time
+constexpr double kGap = 0.02;                // of a diameter, between neighbours of a fresh fill
+constexpr double kHandOverSqueeze = 0.05;    // overlap of radius that a handed-over grain may start with
 
 bool active(const std::vector<Interval>& when, double t) {
   return when.empty() || std::any_of(when.begin(), when.end(), [t](const Interval& i) { return t >= i.on_s && t < i.off_s; });

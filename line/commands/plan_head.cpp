@@ -129,4 +129,17 @@ FeedHead complement_head(const std::vector<FeedHead>& heads, std::string name, s
   }
   return out;
 }
+
+FeedCommands plan_vein_and_body(const graphics::VeinPlan& plan, const LineBasics& basics, const std::string& vein_prefix, const std::string& body_prefix,
+                                double prong_pitch_m, double tick_s, double min_on_s) {
+  const std::string& vein = basics.powders[static_cast<std::size_t>(basics.vein_powder)].name;
+  const std::string& body = basics.powders[static_cast<std::size_t>(basics.body_powder)].name;
+  const HeadLayout layout = strip_layout(basics, vein_prefix + vein, vein, prong_pitch_m, fit_tick(basics, tick_s), basics.bed_mass_kg_m2);
+  CommandRules rules;
+  rules.min_on_s = rules.min_off_s = min_on_s;
+  FeedCommands commands;
+  commands.heads.push_back(plan_head(plan, basics.vein_powder, basics, layout, rules));
+  commands.heads.push_back(complement_head({commands.heads[0]}, body_prefix + body, body, basics.bed_mass_kg_m2));
+  return commands;
+}
 }  // namespace venato::line

@@ -37,6 +37,11 @@ FeedHead plan_head(const graphics::VeinPlan& plan, int channel, const LineBasics
 /// \throws UsageError when the others lay more than `full_rate_kg_m2` anywhere (names the cell), or when their layouts differ.
 FeedHead complement_head(const std::vector<FeedHead>& heads, std::string name, std::string powder, double full_rate_kg_m2);
 
+/// Both heads of a two-powder line on one layout: the vein head on/off by the plan, the body head as its complement. Named prefix + powder.
+/// \param min_on_s shortest on and off time
+FeedCommands plan_vein_and_body(const graphics::VeinPlan& plan, const LineBasics& basics, const std::string& vein_prefix, const std::string& body_prefix,
+                                double prong_pitch_m, double tick_s, double min_on_s);
+
 /// Planned fraction of `channel` averaged over every cell: [tick][prong]. What plan_head thresholds.
 std::vector<double> cell_fractions(const graphics::VeinPlan& plan, int channel, const LineBasics& basics, const HeadLayout& layout);
 /// Closes off phases shorter than `min_off` ticks, then lengthens on phases shorter than `min_on` ticks around their middle. In place, cyclic strip;

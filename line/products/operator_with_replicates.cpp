@@ -24,8 +24,8 @@ std::vector<double> widen(const Operator& op, int first, int n_theta, int n_eta)
 }
 }  // namespace
 
-Operator operator_with_replicates(const std::string& stage, const std::vector<std::vector<Landing>>& sets, int nz_in, int nz_out, double dtheta_s, double deta_m,
-                                  bool full_bed) {
+Operator operator_with_replicates(const std::string& stage, const std::vector<std::vector<Landing>>& sets, int nz_in, int nz_out, double dtheta_s,
+                                  double deta_m, bool full_bed) {
   VENATO_EXPECTS(!sets.empty());
   std::vector<Operator> ops;
   for (const auto& set : sets) ops.push_back(operator_from_landings(stage, set, nz_in, nz_out, dtheta_s, deta_m, full_bed));

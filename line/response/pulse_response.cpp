@@ -14,7 +14,9 @@ namespace venato::line {
 namespace {
 
 /// Delay law: gamma distribution with a dead time, given by mean, standard deviation and shape (1 = exponential, large = normal).
-struct DelayLaw { double mean_s, sd_s, shape; };
+struct DelayLaw {
+  double mean_s, sd_s, shape;
+};
 
 double cumulated(const DelayLaw& law, double t_s) {
   const double dead = law.mean_s - std::sqrt(law.shape) * law.sd_s, scale = law.sd_s / std::sqrt(law.shape);
@@ -25,7 +27,7 @@ double cumulated(const DelayLaw& law, double t_s) {
 class DelayTable {
  public:
   explicit DelayTable(const DelayLaw& law) : low_(law.mean_s - 6 * law.sd_s), step_(law.sd_s / 20), integral_(1, 0.0) {
-    const double span = 16 * law.sd_s;   // -6 … +10 sd: beyond lies less than 1e-4 of an exponential tail
+    const double span = 16 * law.sd_s;  // -6 … +10 sd: beyond lies less than 1e-4 of an exponential tail
     double before = cumulated(law, low_);
     for (double t = step_; t <= span; t += step_) {
       const double here = cumulated(law, low_ + t);
@@ -33,7 +35,7 @@ class DelayTable {
       before = here;
     }
   }
-  double integral(double t_s) const {   // of the cumulated law from -inf to t
+  double integral(double t_s) const {  // of the cumulated law from -inf to t
     const double at = (t_s - low_) / step_;
     if (at <= 0) return 0;
     const auto last = static_cast<double>(integral_.size() - 1);
@@ -50,7 +52,8 @@ class DelayTable {
 /// Mean of (box * G) over the bin [a, b) for unit flow while on.
 double modelled(const DelayTable& table, const std::vector<PulseWindow>& pulses, double a, double b) {
   double sum = 0;
-  for (const PulseWindow& p : pulses) sum += (table.integral(b - p.on_s) - table.integral(a - p.on_s)) - (table.integral(b - p.off_s) - table.integral(a - p.off_s));
+  for (const PulseWindow& p : pulses)
+    sum += (table.integral(b - p.on_s) - table.integral(a - p.on_s)) - (table.integral(b - p.off_s) - table.integral(a - p.off_s));
   return sum / (b - a);
 }
 
@@ -112,7 +115,8 @@ double crossing(const std::vector<double>& t, const std::vector<double>& f, doub
 }
 }  // namespace
 
-std::vector<PulseWindow> random_pulse_train(int pulses, double start_s, double min_on_s, double max_on_s, double min_off_s, double max_off_s, std::uint64_t seed) {
+std::vector<PulseWindow> random_pulse_train(int pulses, double start_s, double min_on_s, double max_on_s, double min_off_s, double max_off_s,
+                                            std::uint64_t seed) {
   VENATO_EXPECTS(pulses > 0 && max_on_s >= min_on_s && max_off_s >= min_off_s);
   Rng rng(seed, stream_id("line/pulse_train"));
   std::vector<PulseWindow> train;
@@ -158,7 +162,7 @@ PulseResponse estimate_pulse_response(const std::vector<TimedMass>& landed, cons
   const double unit = total / on_total;
   Eigen::VectorXd best;
   double best_norm = HUGE_VAL;
-  for (const double sd : {0.008, 0.025, 0.07}) {   // the sum of squares has local minima in the spread: start narrow, medium and wide
+  for (const double sd : {0.008, 0.025, 0.07}) {  // the sum of squares has local minima in the spread: start narrow, medium and wide
     Eigen::VectorXd p(4);
     p << 1.0, moment / total - on_moment / on_total, std::log(sd), std::log(4.0);
     Eigen::NumericalDiff<FlowFit> fit(FlowFit{pulses, f, w, start_s, dt, unit}, 1e-6);
@@ -173,7 +177,8 @@ PulseResponse estimate_pulse_response(const std::vector<TimedMass>& landed, cons
   r.mass_flow_kg_s = best[0] * unit;
   const double sum = r.mass_flow_kg_s;
   const DelayTable table(law);
-  double norm = 0, first = 0, second = 0, before = cumulated(law, std::floor((law.mean_s - 6 * law.sd_s) / options.kernel_bin_s) * options.kernel_bin_s);
+  double norm = 0, first = 0, second = 0,
+         before = cumulated(law, std::floor((law.mean_s - 6 * law.sd_s) / options.kernel_bin_s) * options.kernel_bin_s);
   for (double k = std::floor((law.mean_s - 6 * law.sd_s) / options.kernel_bin_s); k * options.kernel_bin_s < law.mean_s + 10 * law.sd_s; ++k) {
     const double here = cumulated(law, (k + 1) * options.kernel_bin_s);
     if (here > before) r.delay_s.push_back((k + 0.5) * options.kernel_bin_s), r.weight.push_back(here - before), norm += here - before;

@@ -9,7 +9,11 @@
 namespace venato::line {
 namespace {
 
-struct LateralHistogram { double bin_m; std::vector<double> centre_m, weight; double sd_m; };
+struct LateralHistogram {
+  double bin_m;
+  std::vector<double> centre_m, weight;
+  double sd_m;
+};
 
 LateralHistogram lateral_histogram(const std::vector<WeightedShift>& shifts, double bin_m) {
   LateralHistogram h{bin_m, {0.0}, {1.0}, 0.0};
@@ -32,7 +36,7 @@ LateralHistogram lateral_histogram(const std::vector<WeightedShift>& shifts, dou
 std::vector<Landing> landings_of(const PulseResponse& r, const LateralHistogram& h) {
   std::vector<Landing> out;
   for (std::size_t i = 0; i < r.weight.size(); ++i) {
-    if (r.weight[i] < 1e-9) continue;   // far tail: 1e-9 of the mass, renormalised by operator_from_landings
+    if (r.weight[i] < 1e-9) continue;  // far tail: 1e-9 of the mass, renormalised by operator_from_landings
     for (std::size_t j = 0; j < h.weight.size(); ++j)
       if (h.weight[j] > 0) out.push_back({0, 0, r.delay_s[i], h.centre_m[j], r.weight[i] * h.weight[j]});
   }
@@ -63,8 +67,12 @@ Operator operator_from_response(const ResponseOperatorInput& in) {
   op.figures["superposition_defect"] = best.superposition_defect;
   op.figures["pulse_mass_scatter"] = best.mass_per_pulse_error;
   if (best.superposition_defect > 0.15)
-    op.warnings.push_back("response is not linear: superposition defect " + std::to_string(best.superposition_defect) + " > 0.15 (pulses of other lengths may differ)");
-  op.curves["step response"] = {{"time_s", best.edge_time_s}, {"after_on_kg_s", best.flow_after_on_kg_s}, {"after_off_kg_s", best.flow_after_off_kg_s}, {"model_after_on_kg_s", best.model_after_on_kg_s}};
+    op.warnings.push_back("response is not linear: superposition defect " + std::to_string(best.superposition_defect) +
+                          " > 0.15 (pulses of other lengths may differ)");
+  op.curves["step response"] = {{"time_s", best.edge_time_s},
+                                {"after_on_kg_s", best.flow_after_on_kg_s},
+                                {"after_off_kg_s", best.flow_after_off_kg_s},
+                                {"model_after_on_kg_s", best.model_after_on_kg_s}};
   op.curves["delay distribution"] = {{"delay_s", best.delay_s}, {"weight", best.weight}};
   return op;
 }

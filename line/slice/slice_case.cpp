@@ -14,12 +14,13 @@ void read_slice_numerics(ObjectReader& r, SliceNumerics& n, double default_coars
            {.help = "grain diameters in the DEM slice are this factor larger than the powder's", .fallback = default_coarse_graining});
   r.number("slice_width_mm", n.slice_width_m, {1, 100, "mm"},
            {.help = "periodic width of the DEM slice across the belt; at least two largest coarse grains", .fallback = default_width_mm});
-  r.number("expected_max_speed_m_s", n.expected_max_speed_m_s, {0.01, 20, "m/s"},
-           {.help = "fastest relative speed expected; enters the time step (10 % of the Hertz time) and is watched", .fallback = default_max_speed_m_s});
+  r.number(
+      "expected_max_speed_m_s", n.expected_max_speed_m_s, {0.01, 20, "m/s"},
+      {.help = "fastest relative speed expected; enters the time step (10 % of the Hertz time) and is watched", .fallback = default_max_speed_m_s});
 }
 
-dem::Case make_slice_case(const LineBasics& basics, std::string_view name, const SliceNumerics& numerics, const std::vector<int>& powders, double y_low_m,
-                          double y_high_m, double z_low_m, double z_high_m) {
+dem::Case make_slice_case(const LineBasics& basics, std::string_view name, const SliceNumerics& numerics, const std::vector<int>& powders,
+                          double y_low_m, double y_high_m, double z_low_m, double z_high_m) {
   dem::Case c;
   c.name = std::string(name);
   c.box.low = Vec3(0, y_low_m, z_low_m);
@@ -38,7 +39,8 @@ dem::Case make_slice_case(const LineBasics& basics, std::string_view name, const
   return c;
 }
 
-std::size_t add_profile_wall(dem::Case& c, std::string name, const Profile& yz_m, int material, const dem::WallMotion& motion, const dem::Interval& present) {
+std::size_t add_profile_wall(dem::Case& c, std::string name, const Profile& yz_m, int material, const dem::WallMotion& motion,
+                             const dem::Interval& present) {
   dem::Wall wall;
   wall.name = std::move(name);
   wall.shape = dem::extrude_profile(yz_m, c.box.low.x(), c.box.high.x());
@@ -83,14 +85,16 @@ double mean_grain_m(const LineBasics& basics, int powder, double coarse_graining
   return std::cbrt(6.0 * mass / (M_PI * spec.granule_density_kg_m3));
 }
 
-void warn_if_too_coarse(const LineBasics& basics, const SliceNumerics& numerics, std::string_view what, double opening_m, std::vector<std::string>& warnings) {
+void warn_if_too_coarse(const LineBasics& basics, const SliceNumerics& numerics, std::string_view what, double opening_m,
+                        std::vector<std::string>& warnings) {
   const double d = mean_grain_m(basics, basics.body_powder, numerics.coarse_graining);
   const double k = 1.4;  // Beverloo's empty-annulus constant (verification.md 8)
   if (opening_m >= 6 * d) return;
   const double d1 = d / numerics.coarse_graining;
   const double loss = opening_m > k * d ? 1 - std::pow((opening_m - k * d) / (opening_m - k * d1), 1.5) : 1.0;
   char text[256];
-  std::snprintf(text, sizeof text, "%.*s: opening %.1f mm is %.1f coarse-grained diameters (< 6); a slot passes about %.0f %% less than with real grains (Beverloo)",
+  std::snprintf(text, sizeof text,
+                "%.*s: opening %.1f mm is %.1f coarse-grained diameters (< 6); a slot passes about %.0f %% less than with real grains (Beverloo)",
                 static_cast<int>(what.size()), what.data(), opening_m * 1e3, opening_m / d, 100 * loss);
   warnings.emplace_back(text);
 }

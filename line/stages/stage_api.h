@@ -23,7 +23,7 @@ namespace venato::line {
 
 struct PowderSpec {
   std::string name;
-  Rgb8 colour{};                         ///< sRGB of the fired powder
+  Rgb8 colour{};  ///< sRGB of the fired powder
   dem::SizeDistribution psd;
   double granule_density_kg_m3 = 0, poured_bulk_density_kg_m3 = 0;
 };
@@ -31,8 +31,8 @@ struct PowderSpec {
 /// Everything about the line that more than one stage needs. Const after reading.
 struct LineBasics {
   double fired_width_m = 0, fired_length_m = 0, fired_thickness_m = 0;
-  double firing_shrinkage = 0, drying_shrinkage = 0;   ///< linear, fraction
-  double nominal_springback = 0;                       ///< what the line's set-up assumes when it sizes the deposit
+  double firing_shrinkage = 0, drying_shrinkage = 0;  ///< linear, fraction
+  double nominal_springback = 0;                      ///< what the line's set-up assumes when it sizes the deposit
   double fired_density_kg_m3 = 0, loss_on_ignition = 0, moisture = 0;
   double belt_speed_m_s = 0;
   std::vector<PowderSpec> powders;
@@ -40,11 +40,11 @@ struct LineBasics {
   /// DEM materials, fixed order: grain (all powders alike), steel (hoppers, gates, prongs), belt.
   dem::MaterialTable materials;
   static constexpr int kGrain = 0, kSteel = 1, kBelt = 2;
-  double bed_mass_kg_m2 = 0;                           ///< moist powder per belt area that the slab needs
+  double bed_mass_kg_m2 = 0;  ///< moist powder per belt area that the slab needs
   BedGrid grid;
   std::uint64_t seed = 0;
   int bootstrap_replicates = 16;
-  std::string material_inputs_json;                    ///< canonical JSON of powders and materials: part of every operator's key
+  std::string material_inputs_json;  ///< canonical JSON of powders and materials: part of every operator's key
 
   /// The slab cut from the pressed strip: its first corner lies at this offset from the nominal corner, turned by this angle about it (green frame).
   double cut_offset_x_m = 0, cut_offset_y_m = 0, cut_rotation_rad = 0;
@@ -52,8 +52,8 @@ struct LineBasics {
   /// Strip that is cut away on each side: the design lies at x in [trim, trim + width) of the belt.
   double trim_m = 0;
 
-  /// Linear scales between frames. fired = design size; print = dried (the printer sees the dried slab, the kiln comes after); green = pressed, before drying;
-  /// belt = loose powder, before springback.
+  /// Linear scales between frames. fired = design size; print = dried (the printer sees the dried slab, the kiln comes after); green = pressed,
+  /// before drying; belt = loose powder, before springback.
   double print_from_design() const { return 1.0 / (1 - firing_shrinkage); }
   double green_from_design() const { return print_from_design() / (1 - drying_shrinkage); }
   double belt_from_design() const { return green_from_design() / (1 + nominal_springback); }
@@ -70,8 +70,8 @@ struct ChainState {
 };
 struct StageOutput {
   ChainState state;
-  double mass_in_kg = 0, mass_out_kg = 0;              ///< must agree to 1e-6 relative: the chain checks
-  std::map<std::string, double> kpi;                   ///< SI, key ends in unit
+  double mass_in_kg = 0, mass_out_kg = 0;  ///< must agree to 1e-6 relative: the chain checks
+  std::map<std::string, double> kpi;       ///< SI, key ends in unit
 };
 
 /// A configured stage: its closures hold its own config by value.
@@ -87,10 +87,10 @@ struct Stage {
 };
 struct StageDescriptor {
   std::string_view name, help;
-  std::vector<ProductKind> consumes;                   ///< any of these
+  std::vector<ProductKind> consumes;  ///< any of these
   ProductKind produces;
-  std::string_view code_version;                       ///< part of the operator's key: raise it when characterise changes its results
-  std::function<Stage(ObjectReader&)> read;            ///< declares and reads the stage's keys
+  std::string_view code_version;             ///< part of the operator's key: raise it when characterise changes its results
+  std::function<Stage(ObjectReader&)> read;  ///< declares and reads the stage's keys
 };
 /// All stages found by the build, sorted by name.
 const std::vector<StageDescriptor>& all_stages();

@@ -41,7 +41,8 @@ inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio&
   const Trio trial = shrunk - (stiffness * dt) * rate;
   const double held = stiffness_before > 0 ? dot(before, before) / (2 * stiffness_before) : 0;
   const double rescaling = held - dot(shrunk, shrunk) / (2 * stiffness);
-  // Work of the integrator over the slipped part: mean spring force of the step times the slip, not the difference of squares (which adds k (v dt)^2 / 2 per step).
+  // Work of the integrator over the slipped part: mean spring force of the step times the slip, not the difference of squares (which adds k (v dt)^2
+  // / 2 per step).
   const double slip = dot(shrunk + after, trial - after) / (2 * stiffness);
   return {rescaling + slip, -dot(total - after, rate) * dt};
 }

@@ -12,9 +12,11 @@
 
 namespace venato::line::belt_transport {
 namespace {
-constexpr double kStart_s = 0.25;   // grains of the fresh fill are no witnesses
+constexpr double kStart_s = 0.25;  // grains of the fresh fill are no witnesses
 
-struct Layers { std::vector<double> zeta, mean_delay_s, sd_delay_s; };
+struct Layers {
+  std::vector<double> zeta, mean_delay_s, sd_delay_s;
+};
 
 Layers layer_statistics(const ProjectionResult& p, int nz) {
   Layers l;
@@ -31,10 +33,10 @@ Layers layer_statistics(const ProjectionResult& p, int nz) {
   return l;
 }
 
-/// Independent of fields and projection: grains that the run itself carried from inlet to outlet. Only those that entered early enough for nearly all to arrive count; the few of the
-/// bottom layer that are still on their way make the mean a little short. Returns {number, mean delay}.
+/// Independent of fields and projection: grains that the run itself carried from inlet to outlet. Only those that entered early enough for nearly all
+/// to arrive count; the few of the bottom layer that are still on their way make the mean a little short. Returns {number, mean delay}.
 std::pair<double, double> delay_of_grains(const dem::CaseResult& r, double latest_entry_s) {
-  std::unordered_map<std::int64_t, double> entry;   // looked up by id only
+  std::unordered_map<std::int64_t, double> entry;  // looked up by id only
   for (const dem::CounterRecord& g : r.records[0])
     if (g.time_s >= kStart_s && g.time_s <= latest_entry_s) entry.emplace(g.id, g.time_s);
   double n = 0, sum = 0;
@@ -43,8 +45,8 @@ std::pair<double, double> delay_of_grains(const dem::CaseResult& r, double lates
   return {n, n > 0 ? sum / n : std::nan("")};
 }
 
-/// Tracers carry equal shares of the flux, so the mass quantile of each is its rank. The field's own flux profile gives the same up to its defect of continuity, but that
-/// defect can leave a layer exchange no scaling can balance. Returns the largest difference between the two.
+/// Tracers carry equal shares of the flux, so the mass quantile of each is its rank. The field's own flux profile gives the same up to its defect of
+/// continuity, but that defect can leave a layer exchange no scaling can balance. Returns the largest difference between the two.
 double rank_quantiles(ProjectionResult& p) {
   const std::size_t n = p.landed.size();
   std::vector<std::size_t> order(n);
@@ -97,7 +99,8 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
 
   const double bed = c.gate_m;
   const Segment inlet{-c.bin_m, inlet_z_m(c, basics), 0, inlet_z_m(c, basics)};
-  // The bed ends in a free slope at the end of the slice, about as long as it is high: it is read upstream of that slope, where it lies on the next belt at full height.
+  // The bed ends in a free slope at the end of the slice, about as long as it is high: it is read upstream of that slope, where it lies on the next
+  // belt at full height.
   const double outlet_y = read_y_m(c);
   const Segment outlet{outlet_y, -c.drop_m, outlet_y, -c.drop_m + 1.6 * bed};
   ProjectionOptions projection;
@@ -109,13 +112,14 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   const double quantile_mismatch = rank_quantiles(best);
   const int nz = basics.grid.nz;
   std::vector<std::vector<Landing>> sets{landings_of(best, nz, nz)};
-  field_options.lag_s = fields.lag_s;   // the replicates answer for the noise of the fields, not for the choice of the lag
+  field_options.lag_s = fields.lag_s;  // the replicates answer for the noise of the fields, not for the choice of the lag
   const std::size_t block = std::max<std::size_t>(4, frames.size() / 8);
   for (int k = 0; k < basics.bootstrap_replicates; ++k) {
     if (context.stop_requested()) throw Interrupted("stopped while projecting tracers of belt_transport");
     field_options.frame_weights = block_weights(frames.size(), block, slice.seed, k);
     const dem::WindowFields drawn = dem::estimate_fields(frames, grid, field_options);
-    ProjectionResult again = project_open_stage(drawn, inlet, outlet, c.tracers / 4, projection, slice.seed + static_cast<std::uint64_t>(k) + 1, context.threads);
+    ProjectionResult again =
+        project_open_stage(drawn, inlet, outlet, c.tracers / 4, projection, slice.seed + static_cast<std::uint64_t>(k) + 1, context.threads);
     rank_quantiles(again);
     sets.push_back(landings_of(again, nz, nz));
   }
@@ -126,13 +130,16 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   op.figures["stationarity_velocity_change"] = steady.velocity_change;
   op.figures["stationarity_kinetic_energy_drift"] = steady.kinetic_energy_drift;
   op.figures["stationarity_height_drift"] = steady.height_drift;
-  if (!steady.ok) op.warnings.push_back("belt_transport: the DEM window is not stationary (velocity change " + std::to_string(steady.velocity_change) + ", bed height drift " + std::to_string(steady.height_drift) + "): raise settle_s or window_s");
+  if (!steady.ok)
+    op.warnings.push_back("belt_transport: the DEM window is not stationary (velocity change " + std::to_string(steady.velocity_change) +
+                          ", bed height drift " + std::to_string(steady.height_drift) + "): raise settle_s or window_s");
   op.figures["quantile_mismatch"] = quantile_mismatch;
   op.figures["lag_s"] = fields.lag_s;
   op.figures["tracers_stuck_share"] = static_cast<double>(best.stuck) / best.tracers;
   op.figures["tracers_lost_share"] = static_cast<double>(best.lost) / best.tracers;
   if (best.stuck + best.lost > 0.02 * best.tracers)
-    op.warnings.push_back("belt_transport: " + std::to_string(best.stuck + best.lost) + " of " + std::to_string(best.tracers) + " tracers never reached the outlet (dead corner in the bin, or unseen cells)");
+    op.warnings.push_back("belt_transport: " + std::to_string(best.stuck + best.lost) + " of " + std::to_string(best.tracers) +
+                          " tracers never reached the outlet (dead corner in the bin, or unseen cells)");
   double eta2 = 0, theta2 = 0;
   for (const TracerRecord& t : best.landed) eta2 += t.eta_m * t.eta_m;
   const Layers layers = layer_statistics(best, nz);
@@ -160,7 +167,8 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
     fraction.push_back(fields.solid_fraction[at]);
     diffusivity.push_back(fields.d_zz_m2_s[at] * 1e6);
   }
-  op.curves["profiles on the next belt"] = {{"height_mm", height}, {"velocity_m_s", velocity}, {"solid_fraction", fraction}, {"diffusivity_mm2_s", diffusivity}};
+  op.curves["profiles on the next belt"] = {
+      {"height_mm", height}, {"velocity_m_s", velocity}, {"solid_fraction", fraction}, {"diffusivity_mm2_s", diffusivity}};
   add_slice_figures(slice, result, op);
   warn_if_too_coarse(basics, c.numerics, "levelling gate", c.gate_m, op.warnings);
   return op;

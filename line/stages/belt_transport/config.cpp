@@ -3,17 +3,20 @@
 namespace venato::line::belt_transport {
 
 void read(ObjectReader& r, Config& c) {
-  r.number("nominal_delay_ms", c.nominal_delay_s, {0, 60000, "ms"},
-           {.help = "delay from landing in the bin to the outlet that the line's controller already takes off", .fallback = 500.0, .placeholder = true});
+  r.number(
+      "nominal_delay_ms", c.nominal_delay_s, {0, 60000, "ms"},
+      {.help = "delay from landing in the bin to the outlet that the line's controller already takes off", .fallback = 500.0, .placeholder = true});
   r.object(
       "geometry", "section of bin, gate and belts",
       [&](ObjectReader& g) {
         g.number("bin_mm", c.bin_m, {10, 200, "mm"}, {.help = "clear width of the common bin along the belt", .fallback = 16.0, .placeholder = true});
         g.number("gate_mm", c.gate_m, {5, 100, "mm"}, {.help = "height of the levelling gate above the belt", .fallback = 28.0, .placeholder = true});
-        g.number("level_mm", c.level_m, {10, 300, "mm"}, {.help = "powder level in the bin above the belt, held constant", .fallback = 40.0, .placeholder = true});
+        g.number("level_mm", c.level_m, {10, 300, "mm"},
+                 {.help = "powder level in the bin above the belt, held constant", .fallback = 40.0, .placeholder = true});
         g.number("run_mm", c.run_m, {5, 500, "mm"}, {.help = "bed on the first belt after the gate", .fallback = 25.0, .placeholder = true});
         g.number("drop_mm", c.drop_m, {0, 200, "mm"}, {.help = "drop to the next belt", .fallback = 10.0, .placeholder = true});
-        g.number("next_run_mm", c.next_run_m, {10, 500, "mm"}, {.help = "bed on the next belt up to the outlet", .fallback = 50.0, .placeholder = true});
+        g.number("next_run_mm", c.next_run_m, {10, 500, "mm"},
+                 {.help = "bed on the next belt up to the outlet", .fallback = 50.0, .placeholder = true});
       },
       false);
   r.object(

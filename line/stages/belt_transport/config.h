@@ -4,8 +4,8 @@
 namespace venato::line::belt_transport {
 
 /// Extraction from the common bin by the belt, levelling gate, drop to the next belt; periodic across the belt. Origin: on the belt below the
-/// levelling gate. The bin stands on the belt upstream of it (rear wall at y = -bin_m), the bed runs `run_m` on the first belt, falls `drop_m` and runs `next_run_m`
-/// on the next belt, where it is measured.
+/// levelling gate. The bin stands on the belt upstream of it (rear wall at y = -bin_m), the bed runs `run_m` on the first belt, falls `drop_m` and
+/// runs `next_run_m` on the next belt, where it is measured.
 struct Config {
   double nominal_delay_s = 0;
   double bin_m = 0, gate_m = 0, level_m = 0, run_m = 0, drop_m = 0, next_run_m = 0;

@@ -6,7 +6,7 @@
 namespace venato::line::belt_transport {
 namespace {
 constexpr double kFeedBand_m = 0.012;
-constexpr double kReadAt = 0.4;          // of the run on the next belt: the bed ends in a free slope about as long as it is high
+constexpr double kReadAt = 0.4;           // of the run on the next belt: the bed ends in a free slope about as long as it is high
 constexpr double kLoose = 1.5;            // freshly laid fills settle to about 1 / 1.5 of their height
 constexpr double kClearance_m = 0.0003;   // walls above a moving belt: less than any grain
 constexpr double kBeltOverlap_m = 0.012;  // the next belt begins this far upstream of the end of the first
@@ -19,7 +19,8 @@ double outlet_y_m(const Config& c) { return c.run_m + c.next_run_m; }
 dem::Case make_case(const Config& c, const LineBasics& basics) {
   const double v = basics.belt_speed_m_s, width = c.numerics.slice_width_m;
   const double top = kLoose * c.level_m + kFeedBand_m, end = outlet_y_m(c);
-  dem::Case s = make_slice_case(basics, "belt_transport window", c.numerics, {basics.body_powder}, -c.bin_m - 0.004, end + 0.012, -c.drop_m - 0.006, top + 0.006);
+  dem::Case s = make_slice_case(basics, "belt_transport window", c.numerics, {basics.body_powder}, -c.bin_m - 0.004, end + 0.012, -c.drop_m - 0.006,
+                                top + 0.006);
   s.duration_s = c.settle_s + c.window_s;
   dem::WallMotion belt;
   belt.surface_velocity_m_s = Vec3(0, v, 0);
@@ -45,7 +46,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
   rain.low = Vec3(0, -c.bin_m, c.level_m + 0.004);
   rain.high = Vec3(width, 0, c.level_m + 0.004 + kFeedBand_m);
   rain.powder_mass_fractions = {1.0};
-  rain.mass_rate_kg_s = 1.6 * basics.bed_mass_kg_m2 * v * width;   // the level control sets the rate
+  rain.mass_rate_kg_s = 1.6 * basics.bed_mass_kg_m2 * v * width;  // the level control sets the rate
   rain.level_z_m = c.level_m;
   rain.velocity_m_s = Vec3(0, 0, -0.6);
   s.rains.push_back(rain);

@@ -2,7 +2,8 @@
 #include "line/stages/belt_transport/config.h"
 namespace venato::line::belt_transport {
 
-/// Counters: 0 "inlet" (downwards through the bin, below the feed), 1 "read" (where the bed is read on the next belt), 2 "outlet" (end of the slice, removed). Snapshots: one plan, the stationary window.
+/// Counters: 0 "inlet" (downwards through the bin, below the feed), 1 "read" (where the bed is read on the next belt), 2 "outlet" (end of the slice,
+/// removed). Snapshots: one plan, the stationary window.
 dem::Case make_case(const Config& c, const LineBasics& basics);
 Operator characterise(const Config& c, const LineBasics& basics, const std::filesystem::path& checkpoint_folder, Context& context);
 

@@ -11,7 +11,7 @@
 namespace venato::line::piezo_discharge {
 namespace {
 constexpr int kLip = 0, kBelt = 1;
-constexpr double kRainHeight_m = 0.012;   // band above the held level in which grains appear
+constexpr double kRainHeight_m = 0.012;  // band above the held level in which grains appear
 }  // namespace
 
 std::vector<PulseWindow> pulse_train(const Config& c, const LineBasics& basics) {
@@ -23,7 +23,8 @@ double train_duration(const Config& c, const std::vector<PulseWindow>& train) {
   return train.back().off_s + std::sqrt(2 * c.fall_m / kStandardGravity_m_s2) + 0.12;
 }
 
-dem::Case make_case(const Config& c, const LineBasics& basics, std::string_view name, double drive, const std::vector<PulseWindow>& on, double duration_s) {
+dem::Case make_case(const Config& c, const LineBasics& basics, std::string_view name, double drive, const std::vector<PulseWindow>& on,
+                    double duration_s) {
   SliceNumerics numerics = c.numerics;
   numerics.slice_width_m = std::max(numerics.slice_width_m, c.prong_pitch_m);
   const double top = c.hopper_height_m + kRainHeight_m + 0.004, lip = c.outlet_m + c.plate_m;
@@ -74,16 +75,18 @@ double mean_landing_y(const dem::CaseResult& result) {
   return mass > 0 ? moment / mass : 0;
 }
 
-/// Landing seen from the belt: a grain that lands dy downstream of the mean landing place meets belt that passed that place dy / v before, so it counts as earlier.
+/// Landing seen from the belt: a grain that lands dy downstream of the mean landing place meets belt that passed that place dy / v before, so it
+/// counts as earlier.
 std::vector<TimedMass> landing_times(double y_reference_m, const LineBasics& basics, const dem::CaseResult& result) {
   std::vector<TimedMass> landed;
-  for (const dem::CounterRecord& g : result.records[kBelt]) landed.push_back({g.time_s - (g.position_m.y() - y_reference_m) / basics.belt_speed_m_s, g.mass_kg});
+  for (const dem::CounterRecord& g : result.records[kBelt])
+    landed.push_back({g.time_s - (g.position_m.y() - y_reference_m) / basics.belt_speed_m_s, g.mass_kg});
   return landed;
 }
 
 /// Shift across the belt between the middle of the prong and the landing, one per grain.
 std::vector<WeightedShift> lateral_shifts(const dem::CaseResult& result) {
-  std::unordered_map<std::int64_t, double> x_at_lip;   // looked up by id only, never iterated
+  std::unordered_map<std::int64_t, double> x_at_lip;  // looked up by id only, never iterated
   for (const dem::CounterRecord& g : result.records[kLip]) x_at_lip.emplace(g.id, g.position_m.x());
   std::vector<WeightedShift> shifts;
   for (const dem::CounterRecord& g : result.records[kBelt])
@@ -114,7 +117,7 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   const double width = main_case.box.high.x();
   const double per_prong = op.figures["mass_flow_kg_s"] * c.prong_pitch_m / width;
   op.figures["mass_flow_per_prong_kg_s"] = per_prong;
-  op.figures["throw_m"] = landing_y - (c.outlet_m + c.plate_m);   // the dosing station on the belt lies this far downstream of the lip
+  op.figures["throw_m"] = landing_y - (c.outlet_m + c.plate_m);  // the dosing station on the belt lies this far downstream of the lip
   double leak = 0;
   for (const dem::CounterRecord& g : result.records[kBelt])
     if (g.time_s < c.settle_s) leak += g.mass_kg;
@@ -124,9 +127,10 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   // Steady flow at further drive levels: the static map from drive to flow.
   std::vector<double> drive{0.0}, flow{op.figures["leak_kg_s"] * 1e3};
   for (std::size_t k = 0; k < c.drive_levels.size(); ++k) {
-    const double until = c.settle_s + 0.45;
+    const double until = c.settle_s + kLevelTime_s;
     const std::string name = "piezo_discharge drive " + std::to_string(k);
-    const dem::CaseResult level = run_slice(make_case(c, basics, name, c.drive_levels[k], {{c.settle_s, until}}, until), folder / ("drive" + std::to_string(k) + ".ckpt"), context);
+    const dem::CaseResult level = run_slice(make_case(c, basics, name, c.drive_levels[k], {{c.settle_s, until}}, until),
+                                            folder / ("drive" + std::to_string(k) + ".ckpt"), context);
     const double from = c.settle_s + op.reference_delay_s + 0.05;
     double mass = 0;
     for (const dem::CounterRecord& g : level.records[kBelt])

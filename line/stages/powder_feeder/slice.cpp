@@ -12,8 +12,8 @@ namespace venato::line::powder_feeder {
 namespace {
 constexpr double kTail_s = 0.3;           // after the last closing: the streams run dry
 constexpr double kFeedBand_m = 0.016;     // rain band above the held hopper level
-constexpr double kFeedSpeed_m_s = 0.8;     // fast enough that the rain is never what limits the flow
-constexpr double kSealSlope = 0.4;         // the gate reaches so far beyond the outlet that powder in the gap above it rests at less than 22 degrees
+constexpr double kFeedSpeed_m_s = 0.8;    // fast enough that the rain is never what limits the flow
+constexpr double kSealSlope = 0.4;        // the gate reaches so far beyond the outlet that powder in the gap above it rests at less than 22 degrees
 constexpr double kHopperClear_m = 0.008;  // between outlet and the counter below it
 }  // namespace
 
@@ -61,7 +61,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
     dem::WallMotion slide;
     // Gap of the largest grain: the closing gate crushes none, and the powder seals by its own angle of repose.
     const double play = largest_grain_m(basics, c.numerics.coarse_graining), gate_z = c.drop_m - play, overlap = play / kSealSlope;
-    const double away = (middle >= 0 ? 1 : -1) * (c.outlet_m + overlap + 0.001);   // gates open outwards
+    const double away = (middle >= 0 ? 1 : -1) * (c.outlet_m + overlap + 0.001);  // gates open outwards
     slide.track.push_back({0.0, Vec3::Zero()});
     for (const PulseWindow& p : schedule[k]) {
       slide.track.push_back({p.on_s, Vec3::Zero()});
@@ -81,7 +81,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
     rain.low = Vec3(0, bin_low, c.drop_m + c.hopper_height_m + 0.004);
     rain.high = Vec3(c.numerics.slice_width_m, bin_high, hopper_top);
     rain.powder_mass_fractions = fill.powder_mass_fractions;
-    rain.mass_rate_kg_s = 0.03 * c.numerics.slice_width_m / 0.006;   // more than an outlet passes; the level control sets the rate
+    rain.mass_rate_kg_s = 0.03 * c.numerics.slice_width_m / 0.006;  // more than an outlet passes; the level control sets the rate
     rain.level_z_m = c.drop_m + c.hopper_height_m;
     rain.velocity_m_s = Vec3(0, 0, -kFeedSpeed_m_s);
     s.rains.push_back(rain);
@@ -117,8 +117,9 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   // The powders are laid end to end on one time axis: one response from all openings.
   const double length = slice.duration_s - c.settle_s;
   for (std::size_t k = 0; k < n; ++k)
-    for (const PulseWindow& p : schedule[k]) in.pulses.push_back({p.on_s + static_cast<double>(k) * length, p.off_s + static_cast<double>(k) * length});
-  std::unordered_map<std::int64_t, double> x_at_outlet;   // looked up by id only
+    for (const PulseWindow& p : schedule[k])
+      in.pulses.push_back({p.on_s + static_cast<double>(k) * length, p.off_s + static_cast<double>(k) * length});
+  std::unordered_map<std::int64_t, double> x_at_outlet;  // looked up by id only
   for (std::size_t k = 0; k < n; ++k)
     for (const dem::CounterRecord& g : result.records[k]) x_at_outlet.emplace(g.id, g.position_m.x());
   for (const dem::CounterRecord& g : landed) {
@@ -151,7 +152,8 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
     place[k] += g.mass_kg * g.position_m.y();
     place_mass[k] += g.mass_kg;
     for (const PulseWindow& p : schedule[k])
-      if (g.time_s >= p.on_s + op.reference_delay_s + 2 * op.figures["sd_delay_s"] && g.time_s < p.off_s + op.reference_delay_s) steady[k] += g.mass_kg;
+      if (g.time_s >= p.on_s + op.reference_delay_s + 2 * op.figures["sd_delay_s"] && g.time_s < p.off_s + op.reference_delay_s)
+        steady[k] += g.mass_kg;
   }
   for (std::size_t k = 0; k < n; ++k)
     for (const PulseWindow& p : schedule[k]) steady_time[k] += std::max(0.0, p.off_s - p.on_s - 2 * op.figures["sd_delay_s"]);

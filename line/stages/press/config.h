@@ -3,7 +3,8 @@
 #include "line/slice/slice_case.h"
 namespace venato::line::press {
 
-/// Column-wise compaction by the closed-form map; a cohesive DEM slice (EEPA) between floor and lid, periodic in the plane, gives the non-affine scatter.
+/// Column-wise compaction by the closed-form map; a cohesive DEM slice (EEPA) between floor and lid, periodic in the plane, gives the non-affine
+/// scatter.
 struct Config {
   double peak_pressure_pa = 0, density_a_kg_m3 = 0, density_b_kg_m3 = 0;
   double lateral_length_factor = 0, springback = 0, edge_gain_m = 0, edge_zone_m = 0;

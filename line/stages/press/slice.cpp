@@ -11,14 +11,14 @@
 
 namespace venato::line::press {
 namespace {
-constexpr double kLoosePacking = 0.52;      // solid fraction of the lattice-filled, settled bed: only sizes the fill and where the lid starts
+constexpr double kLoosePacking = 0.52;  // solid fraction of the lattice-filled, settled bed: only sizes the fill and where the lid starts
 constexpr int kHeightBins = 6;
 
 double fill_mass(const Config& c, const LineBasics& basics) {
   const double area = c.numerics.slice_width_m * c.numerics.slice_width_m;
   return kLoosePacking * area * c.bed_height_m * basics.materials.materials[LineBasics::kGrain].density_kg_m3;
 }
-double lid_start(const Config& c) { return 2.6 * c.bed_height_m; }   // above the lattice the grains are laid on, which is looser still
+double lid_start(const Config& c) { return 2.6 * c.bed_height_m; }  // above the lattice the grains are laid on, which is looser still
 double lid_end(const Config& c) { return c.bed_height_m * kLoosePacking / c.end_solid_fraction; }
 }  // namespace
 
@@ -60,7 +60,9 @@ NonAffine non_affine_scatter(const dem::Snapshot& before, const dem::Snapshot& a
   double top0 = 0, top1 = 0;
   for (const Vec3& p : before.position_m) top0 = std::max(top0, p.z());
   for (const Vec3& p : after.position_m) top1 = std::max(top1, p.z());
-  struct Sum { double n = 0, x = 0, y = 0, xx = 0, yy = 0; };
+  struct Sum {
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0;
+  };
   std::vector<Sum> bins(static_cast<std::size_t>(height_bins));
   for (std::size_t k = 0; k < before.id.size(); ++k) {
     const auto it = late.find(before.id[k]);
@@ -83,7 +85,8 @@ NonAffine non_affine_scatter(const dem::Snapshot& before, const dem::Snapshot& a
 Operator characterise(const Config& c, const LineBasics& basics, const std::filesystem::path& folder, Context& context) {
   const dem::Case slice = make_case(c, basics);
   const dem::CaseResult r = run_slice(slice, folder / "press.ckpt", context);
-  if (r.snapshots.size() < 2 || r.snapshots[0].empty() || r.snapshots[1].empty()) throw WorkError("press: the DEM slice ended without its two frames");
+  if (r.snapshots.size() < 2 || r.snapshots[0].empty() || r.snapshots[1].empty())
+    throw WorkError("press: the DEM slice ended without its two frames");
   const NonAffine scatter = non_affine_scatter(r.snapshots[0].front(), r.snapshots[1].front(), kHeightBins);
   const double cg = c.numerics.coarse_graining;
   // Scatter scales with the grain (sigma^2 = C d^2 strain, multiscale.md 3.3): real grains scatter cg times less.
@@ -99,7 +102,8 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
     }
   const double bin = std::max(sigma / 3, basics.grid.pitch_m / 16);
   Operator op = operator_from_landings("press", landings, 1, 1, bin / basics.belt_speed_m_s, bin, false);
-  for (int k = 0; k < basics.bootstrap_replicates; ++k) op.replicates.push_back(op.weight), op.replicate_reference_delay_s.push_back(op.reference_delay_s);
+  for (int k = 0; k < basics.bootstrap_replicates; ++k)
+    op.replicates.push_back(op.weight), op.replicate_reference_delay_s.push_back(op.reference_delay_s);
 
   const double d = mean_grain_m(basics, basics.body_powder, cg);
   op.figures["sigma_nonaffine_m"] = sigma;
@@ -122,7 +126,8 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   if (!pressure.empty()) {
     op.figures["lid_pressure_end_pa"] = pressure.back();
     const double rate = c.lid_speed_m_s / (lid_end(c));
-    op.figures["inertial_number"] = rate * d * std::sqrt(basics.materials.materials[LineBasics::kGrain].density_kg_m3 / std::max(pressure.back(), 1.0));
+    op.figures["inertial_number"] =
+        rate * d * std::sqrt(basics.materials.materials[LineBasics::kGrain].density_kg_m3 / std::max(pressure.back(), 1.0));
   }
   add_slice_figures(slice, r, op);
   return op;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "line/press_map/press_map.h"
+#include "line/stages/make_stage.h"
 #include "line/stages/press/slice.h"
 
 namespace venato::line::press {
@@ -19,7 +19,7 @@ PressMapConfig map_config(const Config& c) {
   m.springback = c.springback;
   m.edge_gain_m = c.edge_gain_m;
   m.edge_zone_m = c.edge_zone_m;
-  m.sigma_nonaffine_m = 0;   // the operator has already blurred the bed by it
+  m.sigma_nonaffine_m = 0;  // the operator has already blurred the bed by it
   return m;
 }
 
@@ -35,7 +35,9 @@ CutWindow cut_window(const LineBasics& basics) {
   return cut;
 }
 
-struct Spread { double mean, cv, low, high; };
+struct Spread {
+  double mean, cv, low, high;
+};
 Spread spread_of(const graphics::RasterF& r) {
   double sum = 0, square = 0, low = HUGE_VAL, high = -HUGE_VAL;
   for (const float f : r.data) {
@@ -52,13 +54,14 @@ StageOutput apply_stage(const Config& c, const Operator& op, const ChainState& i
   out.mass_in_kg = in.bed->total_mass_kg();
   Bed bed = apply(op, *in.bed, basics.belt_speed_m_s, op.reference_delay_s, context.threads, replicate);
   const PressMap map = compute_press_map(bed.areal_mass(), bed.grid, map_config(c));
-  double pressed = 0;   // what the map holds: thickness x density x pressed area
+  double pressed = 0;  // what the map holds: thickness x density x pressed area
   for (std::size_t i = 0; i < map.thickness_m.size(); ++i) pressed += map.thickness_m[i] * map.density_kg_m3[i] * map.area_ratio[i];
   out.mass_out_kg = pressed * bed.grid.pitch_m * bed.grid.pitch_m;
   out.state.bed.reset();
   out.state.slab = make_slab(std::move(bed), map, cut_window(basics), basics.grid.pitch_m, context.threads);
 
-  const Spread thickness = spread_of(out.state.slab->thickness_m), density = spread_of(out.state.slab->density_kg_m3), pressure = spread_of(out.state.slab->pressure_pa);
+  const Spread thickness = spread_of(out.state.slab->thickness_m), density = spread_of(out.state.slab->density_kg_m3),
+               pressure = spread_of(out.state.slab->pressure_pa);
   out.kpi["thickness_mean_m"] = thickness.mean;
   out.kpi["density_mean_kg_m3"] = density.mean;
   out.kpi["density_cv"] = density.cv;
@@ -66,10 +69,11 @@ StageOutput apply_stage(const Config& c, const Operator& op, const ChainState& i
   out.kpi["pressure_low_pa"] = pressure.low;
   out.kpi["pressure_high_pa"] = pressure.high;
   out.kpi["share_below_1_mpa"] = map.share_below_1_mpa;
-  for (const char* name : {"sigma_nonaffine_m", "lid_pressure_end_pa", "inertial_number"})
-    if (const auto it = op.figures.find(name); it != op.figures.end()) out.kpi[name] = it->second;
+  add_figures_as_kpi(out, op, {"sigma_nonaffine_m", "lid_pressure_end_pa", "inertial_number"});
   return out;
 }
+
+dem::CaseCost cost(const Config& c, const LineBasics& basics, int threads) { return estimate_slice_cost(make_case(c, basics), threads); }
 }  // namespace
 
 StageDescriptor descriptor() {
@@ -79,16 +83,7 @@ StageDescriptor descriptor() {
   d.consumes = {ProductKind::full_bed};
   d.produces = ProductKind::slab;
   d.code_version = "1";
-  d.read = [](ObjectReader& r) {
-    auto c = std::make_shared<Config>();
-    read(r, *c);
-    Stage s;
-    s.name = "press";
-    s.cost = [c](const LineBasics& basics, int threads) { return estimate_slice_cost(make_case(*c, basics), threads); };
-    s.characterise = [c](const LineBasics& basics, const std::filesystem::path& folder, Context& context) { return characterise(*c, basics, folder, context); };
-    s.apply = [c](const Operator& op, const ChainState& in, const LineBasics& basics, Context& context, int replicate) { return apply_stage(*c, op, in, basics, context, replicate); };
-    return s;
-  };
+  d.read = stage_reader<Config>({"press", read, cost, characterise, apply_stage});
   return d;
 }
 }  // namespace venato::line::press

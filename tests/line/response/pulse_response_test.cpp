@@ -10,7 +10,7 @@
 namespace venato::line {
 namespace {
 
-constexpr double kFlow = 4e-3, kGrain = 1e-6;   // 4 g/s in grains of 1 mg: 4000 grains per second of opening
+constexpr double kFlow = 4e-3, kGrain = 1e-6;  // 4 g/s in grains of 1 mg: 4000 grains per second of opening
 
 /// Grains released uniformly while on, each delayed by `delay(rng, k)`.
 template <class Delay>
@@ -31,7 +31,7 @@ std::vector<PulseWindow> train() { return random_pulse_train(24, 0.2, 0.04, 0.12
 PulseResponse estimate(const std::vector<TimedMass>& landed, const std::vector<PulseWindow>& t, const std::vector<double>& weights = {}) {
   return estimate_pulse_response(landed, t, 0.2, t.back().off_s + 0.4, {}, weights);
 }
-double triangular(Rng& rng) { return 0.10 + 0.02 * (rng.uniform() + rng.uniform()); }   // mean 0.12, sd 0.02 / sqrt(6)
+double triangular(Rng& rng) { return 0.10 + 0.02 * (rng.uniform() + rng.uniform()); }  // mean 0.12, sd 0.02 / sqrt(6)
 
 TEST(PulseResponse, RecoversDelayFlowAndSpreadOfALinearDevice) {
   const auto t = train();
@@ -47,9 +47,9 @@ TEST(PulseResponse, RecoversDelayFlowAndSpreadOfALinearDevice) {
     sum += w;
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
-  EXPECT_NEAR(r.latency_on_s, 0.12, 0.004);    // symmetric delay law: half the flow at the mean; two bins
+  EXPECT_NEAR(r.latency_on_s, 0.12, 0.004);  // symmetric delay law: half the flow at the mean; two bins
   EXPECT_NEAR(r.latency_off_s, 0.12, 0.004);
-  EXPECT_LT(r.superposition_defect, 0.12);     // shot noise of 4000 grains/s over ~24 edges in 2.5 ms bins: sqrt(1/240) = 6 %
+  EXPECT_LT(r.superposition_defect, 0.12);  // shot noise of 4000 grains/s over ~24 edges in 2.5 ms bins: sqrt(1/240) = 6 %
   EXPECT_GT(r.superposition_defect, 0.0);
 }
 
@@ -70,7 +70,7 @@ TEST(PulseResponse, BootstrapWeightsChangeTheAnswerAndEqualWeightsDoNot) {
   for (std::size_t k = 0; k < t.size(); k += 2) some[k] = 2;
   const PulseResponse half = estimate(landed, t, some);
   EXPECT_NE(plain.weight, half.weight);
-  EXPECT_NEAR(half.mean_delay_s, plain.mean_delay_s, 0.002);   // same device: within a few standard errors of half the data
+  EXPECT_NEAR(half.mean_delay_s, plain.mean_delay_s, 0.002);  // same device: within a few standard errors of half the data
 }
 
 TEST(PulseResponse, NothingDischargedIsAnError) { EXPECT_THROW(estimate({}, train()), WorkError); }

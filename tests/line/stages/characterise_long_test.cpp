@@ -36,10 +36,10 @@ TEST(Characterise, PiezoDischargeSealsAtRestAndFlowsWithTheDrive) {
   c.drive_levels = {0.4};
   const Operator op = piezo_discharge::characterise(c, small_line(), bench.folder, bench.context);
   EXPECT_NEAR(sum_of(op), 1.0, 1e-9);
-  EXPECT_LT(op.figures.at("leak_kg_s"), 0.03 * op.figures.at("mass_flow_kg_s"));   // VB1: shut means shut (the heap's first grains aside)
+  EXPECT_LT(op.figures.at("leak_kg_s"), 0.03 * op.figures.at("mass_flow_kg_s"));  // VB1: shut means shut (the heap's first grains aside)
   const auto& flow = op.curves.at("flow against drive").at("mass_flow_g_s");
   ASSERT_EQ(flow.size(), 3u);
-  EXPECT_LT(flow[1], 0.8 * flow[2]);   // less drive, less flow
+  EXPECT_LT(flow[1], 0.8 * flow[2]);  // less drive, less flow
   // Free fall of 30 mm takes 78 ms; no grain can be on the belt before, all should be within a quarter of a second.
   EXPECT_GT(op.reference_delay_s, 0.05);
   EXPECT_LT(op.reference_delay_s, 0.25);
@@ -51,7 +51,7 @@ TEST(Characterise, FeederKeepsTheFlowWhateverThePowder) {
   c.cycles = 1;
   const Operator op = powder_feeder::characterise(c, small_line(), bench.folder, bench.context);
   EXPECT_NEAR(sum_of(op), 1.0, 1e-9);
-  EXPECT_LT(op.figures.at("mass_flow_unevenness"), 0.15);   // both powders share sizes and friction: only noise may part them
+  EXPECT_LT(op.figures.at("mass_flow_unevenness"), 0.15);  // both powders share sizes and friction: only noise may part them
   EXPECT_GT(op.figures.at("target"), 0.8);
   EXPECT_LE(op.figures.at("target"), 1.0);
 }
@@ -64,7 +64,7 @@ TEST(Characterise, BeltTransportLaysWhatTheGateLetsThroughAndShearsTheTopForward
   // Gate height times bulk density of about 0.9 to 1.15 g/cm3 (solid fraction 0.50 to 0.62 of 1850).
   EXPECT_GT(op.figures.at("areal_mass_kg_m2"), 0.75 * c.gate_m * 1000);
   EXPECT_LT(op.figures.at("areal_mass_kg_m2"), 1.15 * c.gate_m * 1000);
-  EXPECT_LT(op.figures.at("top_minus_bottom_delay_s"), 0);   // what leaves the bin last along the belt lies at the bottom
+  EXPECT_LT(op.figures.at("top_minus_bottom_delay_s"), 0);  // what leaves the bin last along the belt lies at the bottom
   EXPECT_LT(std::abs(op.figures.at("flux_defect")), 0.08);
   for (int z = 0; z < op.nz_in; ++z) {
     double row = 0, column = 0;
@@ -81,7 +81,7 @@ TEST(Characterise, PressScatterIsBelowAGrain) {
   const auto c = defaults<press::Config>(press::read);
   const Operator op = press::characterise(c, small_line(), bench.folder, bench.context);
   EXPECT_GT(op.figures.at("sigma_nonaffine_m"), 0);
-  EXPECT_LT(op.figures.at("sigma_nonaffine_m"), 0.0005);   // PR8: sigma <= d
+  EXPECT_LT(op.figures.at("sigma_nonaffine_m"), 0.0005);  // PR8: sigma <= d
   EXPECT_GT(op.figures.at("height_strain"), 0.15);
 }
 }  // namespace

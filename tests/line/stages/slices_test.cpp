@@ -21,7 +21,8 @@ TEST(Slices, EveryStageReadsItsDefaultsAndBuildsACaseThatFitsItsBox) {
   const auto belt = defaults<belt_transport::Config>(belt_transport::read);
   const auto press_c = defaults<press::Config>(press::read);
   const auto train = piezo_discharge::pulse_train(piezo, b);
-  for (const dem::Case& c : {piezo_discharge::make_case(piezo, b, "p", 1, train, 1), powder_feeder::make_case(feeder, b), belt_transport::make_case(belt, b), press::make_case(press_c, b)}) {
+  for (const dem::Case& c : {piezo_discharge::make_case(piezo, b, "p", 1, train, 1), powder_feeder::make_case(feeder, b),
+                             belt_transport::make_case(belt, b), press::make_case(press_c, b)}) {
     EXPECT_TRUE(c.box.periodic[0]);
     const double largest = b.powders[0].psd.upper_cut_m * c.coarse_graining;
     EXPECT_GE(c.box.high.x() - c.box.low.x(), 2 * largest) << c.name << ": the periodic slice is narrower than two grains";
@@ -69,7 +70,7 @@ TEST(Press, NonAffineScatterSeesScatterAndNotTheCompaction) {
     after.position_m.push_back(Vec3(p.x() + 0.0 * p.z() + kSd * rng.normal(), p.y() + 2 * kSd * rng.normal(), 0.6 * p.z()));
   }
   const press::NonAffine n = press::non_affine_scatter(before, after, 6);
-  EXPECT_NEAR(n.sd_x_m, kSd, 0.02 * kSd);          // 20000 samples: 0.5 % per standard error
+  EXPECT_NEAR(n.sd_x_m, kSd, 0.02 * kSd);  // 20000 samples: 0.5 % per standard error
   EXPECT_NEAR(n.sd_y_m, 2 * kSd, 0.02 * 2 * kSd);
   EXPECT_NEAR(n.strain, 0.4, 1e-3);
 }
