@@ -63,7 +63,7 @@ double top_bottom_offset(const LineBasics& b, const Slab& slab, int threads) {
   const auto top = graphics::vein_fraction(look_at_slab(b, slab, 0, threads)),
              bottom = graphics::vein_fraction(look_at_slab(b, slab, thickness, threads));
   const double pitch_m = top.pitch_m;
-  const int reach = static_cast<int>(0.05 / pitch_m);  // offsets up to 50 mm: more than a 40 deg vein edge runs in the thickest slab
+  const int reach = static_cast<int>(0.15 / pitch_m);  // 150 mm: bottom extraction from a bin shears a bed by several times its height
   double best = -1, best_shift = kUnset;
   for (int s = -reach; s <= reach; ++s) {
     double cross = 0, a = 0, c = 0;
@@ -75,6 +75,6 @@ double top_bottom_offset(const LineBasics& b, const Slab& slab, int threads) {
     const double score = a > 0 && c > 0 ? cross / std::sqrt(a * c) : -1;
     if (score > best) best = score, best_shift = s * pitch_m;
   }
-  return best > 0 ? best_shift : kUnset;
+  return best > 0 && std::abs(best_shift) < reach * pitch_m ? best_shift : kUnset;
 }
 }  // namespace venato::line

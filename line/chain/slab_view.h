@@ -23,7 +23,7 @@ graphics::RasterF vein_standard_error(const LineConfig& config, const std::vecto
 /// The same raster on another grid (bilinear).
 graphics::RasterF resample_to(const graphics::RasterF& raster, int width, int height, double pitch_m);
 
-/// Shift along the belt that best lays the veins of the face onto those of the bottom face (normalised correlation, within 50 mm) [m]; positive: the
+/// Shift along the belt that best lays the veins of the face onto those of the bottom face (normalised correlation, within 150 mm, NaN beyond) [m]; positive: the
 /// bottom lies downstream. NaN without veins.
 double top_bottom_offset(const LineBasics& basics, const Slab& slab, int threads);
 }  // namespace venato::line

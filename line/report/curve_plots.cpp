@@ -6,12 +6,12 @@
 namespace venato::line {
 namespace {
 /// Name endings and the unit they stand for, longest first so that "_kg_s" is not read as "_s".
-constexpr std::array<std::pair<std::string_view, std::string_view>, 22> kUnits{
-    {{"_kg_m2_s", "kg/m²/s"}, {"_kg_m2", "kg/m²"}, {"_kg_m3", "kg/m³"}, {"_m2_s", "m²/s"}, {"_rad_s", "rad/s"}, {"_m_s", "m/s"},
-     {"_kg_s", "kg/s"},       {"_g_s", "g/s"},     {"_mpa", "MPa"},     {"_kpa", "kPa"},   {"_deg", "°"},       {"_mm", "mm"},
-     {"_um", "µm"},           {"_ms", "ms"},       {"_hz", "Hz"},       {"_kg", "kg"},     {"_pa", "Pa"},       {"_rad", "rad"},
-     {"_pct", "%"},           {"_n", "N"},         {"_m", "m"},         {"_s", "s"}}};
-constexpr std::array<std::string_view, 8> kAbscissas{"time_s", "delay_s", "position_m", "y_m", "z_m", "drive", "solid_fraction", "zeta"};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 23> kUnits{
+    {{"_kg_m2_s", "kg/m²/s"}, {"_kg_m2", "kg/m²"}, {"_kg_m3", "kg/m³"}, {"_mm2_s", "mm²/s"}, {"_m2_s", "m²/s"}, {"_rad_s", "rad/s"},
+     {"_m_s", "m/s"},         {"_kg_s", "kg/s"},   {"_g_s", "g/s"},     {"_mpa", "MPa"},     {"_kpa", "kPa"},   {"_deg", "°"},
+     {"_mm", "mm"},           {"_um", "µm"},       {"_ms", "ms"},       {"_hz", "Hz"},       {"_kg", "kg"},     {"_pa", "Pa"},
+     {"_rad", "rad"},         {"_pct", "%"},       {"_n", "N"},         {"_m", "m"},         {"_s", "s"}}};
+constexpr std::array<std::string_view, 9> kAbscissas{"time_s", "delay_s", "height_mm", "position_m", "y_m", "z_m", "drive", "solid_fraction", "zeta"};
 
 std::string label(const NamedUnit& n) { return n.unit.empty() ? n.words : n.words + " [" + n.unit + "]"; }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -130,15 +131,21 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   op.figures["stationarity_velocity_change"] = steady.velocity_change;
   op.figures["stationarity_kinetic_energy_drift"] = steady.kinetic_energy_drift;
   op.figures["stationarity_height_drift"] = steady.height_drift;
-  if (!steady.ok)
-    op.warnings.push_back("belt_transport: the DEM window is not stationary (velocity change " + std::to_string(steady.velocity_change) +
-                          ", bed height drift " + std::to_string(steady.height_drift) + "): raise settle_s or window_s");
+  if (!steady.ok) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "the DEM window is not stationary by the gate (between its halves: velocity %.1f %%, limit 5; kinetic energy %.1f %% and bed "
+                  "height %.1f %%, limits 2): raise "
+                  "settle_s or window_s",
+                  100 * steady.velocity_change, 100 * steady.kinetic_energy_drift, 100 * steady.height_drift);
+    op.warnings.emplace_back(text);
+  }
   op.figures["quantile_mismatch"] = quantile_mismatch;
   op.figures["lag_s"] = fields.lag_s;
   op.figures["tracers_stuck_share"] = static_cast<double>(best.stuck) / best.tracers;
   op.figures["tracers_lost_share"] = static_cast<double>(best.lost) / best.tracers;
   if (best.stuck + best.lost > 0.02 * best.tracers)
-    op.warnings.push_back("belt_transport: " + std::to_string(best.stuck + best.lost) + " of " + std::to_string(best.tracers) +
+    op.warnings.push_back(std::to_string(best.stuck + best.lost) + " of " + std::to_string(best.tracers) +
                           " tracers never reached the outlet (dead corner in the bin, or unseen cells)");
   double eta2 = 0, theta2 = 0;
   for (const TracerRecord& t : best.landed) eta2 += t.eta_m * t.eta_m;
