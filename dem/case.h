@@ -85,9 +85,10 @@ struct Rain {
   double mass_rate_kg_s = 0;
   std::vector<Interval> when;                  ///< empty = always
   Vec3 velocity_m_s = Vec3::Zero();
-  /// Level control: rain only while the highest centre of a grain that rests (touches something and is slower than 0.15 m/s), in the columns
+  /// Level control: rain only while the highest centre of a grain that rests (touches something and is slower than resting_speed_m_s), in the columns
   /// under the region, is below level_z_m (NaN = off).
   double level_z_m = std::numeric_limits<double>::quiet_NaN();
+  double resting_speed_m_s = 0.15;             ///< grains that touch something and are slower than this make up the level
 };
 /// Grains handed over from an earlier stage (position, velocity, spin, diameter, species), put in at their birth time.
 struct GrainRecord {

@@ -64,8 +64,8 @@ std::uint64_t case_fingerprint(const Case& c) {
   for (const Wall& v : c.walls) add_shape(w, v.shape), add_motion(w, v.motion), w.value(v.material), w.value(v.present);
   for (const Fill& f : c.fills) w.value(f.low), w.value(f.high), w.list(f.powder_mass_fractions), w.value(f.mass_kg), w.value(f.velocity_m_s);
   for (const Rain& r : c.rains)
-    exchange_text(w, r.name), w.value(r.low), w.value(r.high), w.list(r.powder_mass_fractions), w.value(r.mass_rate_kg_s), w.list(r.when),
-        w.value(r.velocity_m_s), w.value(r.level_z_m);
+    exchange_text(w, r.name), w.value(r.low), w.value(r.high), w.list(r.powder_mass_fractions), w.value(r.mass_rate_kg_s),
+        w.value(r.resting_speed_m_s), w.list(r.when), w.value(r.velocity_m_s), w.value(r.level_z_m);
   for (const GrainRecord& g : c.handed_over)
     w.value(g.time_s), w.value(g.position_m), w.value(g.velocity_m_s), w.value(g.spin_rad_s), w.value(g.diameter_m), w.value(g.species);
   for (const Counter& k : c.counters)

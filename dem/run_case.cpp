@@ -151,11 +151,12 @@ CaseResult run_case(const Case& c, const RunOptions& options, Context& context) 
     count_crossings(run);
     if (run.sim.step_number() % kOutflowEvery == 0) remove_outside(run);
   }
+  if (!options.checkpoint.empty() && options.keep_checkpoint) save_checkpoint(run, options.checkpoint);
   observe(run);
   finish_result(run);
   run.result.wall_clock_s = keeper.elapsed_s();
   if (options.profile) log_profile(run);
-  if (!options.checkpoint.empty()) std::filesystem::remove(options.checkpoint);
+  if (!options.checkpoint.empty() && !options.keep_checkpoint) std::filesystem::remove(options.checkpoint);
   return std::move(run.result);
 }
 }  // namespace venato::dem

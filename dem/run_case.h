@@ -49,6 +49,7 @@ double choose_time_step(const Case& c);                ///< design: min(20 % Ray
 struct RunOptions {
   std::filesystem::path checkpoint;                    ///< empty = none; exists = resume from it, bit for bit
   double checkpoint_every_wall_s = 30;
+  bool keep_checkpoint = false;                        ///< the finished case leaves its last state there: run again, it returns the same result at once
   std::filesystem::path vtk_folder;
   bool profile = false;
 };

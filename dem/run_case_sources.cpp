@@ -12,7 +12,6 @@ namespace venato::dem {
 namespace {
 constexpr std::int64_t kInsertEvery = 64;    // steps between insertions of rain: each one costs a list build
 constexpr std::int64_t kHandOverEvery = 10;  // grains handed over are few and their birth time matters
-constexpr double kRestingSpeed_m_s = 0.15;   // of grains that count for the level: faster ones are still bouncing or sliding down
 constexpr int kAttempts = 30;                // random places tried for one grain before it waits for the next time
 constexpr double kGap = 0.02;                // of a diameter, between neighbours of a fresh fill
 constexpr double kHandOverSqueeze = 0.05;    // overlap of radius that a handed-over grain may start with
@@ -103,7 +102,7 @@ void rain(CaseRun& run, std::size_t index) {
   GrainStream& stream = run.rain_streams[index];
   const double t = run.sim.time_s();
   if (!active(r.when, t)) return;
-  if (!std::isnan(r.level_z_m) && run.sim.bed_top_m(r.low, r.high, kRestingSpeed_m_s) >= r.level_z_m) return;
+  if (!std::isnan(r.level_z_m) && run.sim.bed_top_m(r.low, r.high, r.resting_speed_m_s) >= r.level_z_m) return;
   state.due_kg += r.mass_rate_kg_s * static_cast<double>(kInsertEvery) * run.sim.time_step_s();
   while (true) {
     const GrainStream::Draw d = stream.at(state.entity);

@@ -54,7 +54,7 @@ Parsed parse(int argc, const char* const* argv) {
   auto* dem = app.add_subcommand("dem", "one particle simulation (slice, rig, hopper)");
   dem->add_option("CASE", o.input, "case file (format venato-dem)")->required();
   add_out(*dem, o), add_set(*dem, o), add_common(*dem, o);
-  dem->footer("Example:\n  venato dem configs/heap.json -o out/heap\nWrites HDF5, CSV and, when the case asks for them, ParaView files.");
+  dem->footer("Example:\n  venato dem configs/dem/lifted_cylinder.json -o out/heap\nWrites HDF5, CSV and, when the case asks for them, ParaView files.");
 
   auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab");
   sync->add_option("--vein-map", o.vein_map, "vein map or picture of the slab (TIFF, PNG, JPEG)")->required()->type_name("V");

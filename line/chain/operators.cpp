@@ -7,6 +7,9 @@
 namespace venato::line {
 namespace {
 constexpr const char* kKind = "operator";
+/// Version of what all stages share on the way from a slice to an operator (DEM engine, fields, projection, pulse response, deposition on the kernel
+/// grid). Raise it with every change there that changes results: stored operators of the version before are then not used any more.
+constexpr const char* kSharedCodeVersion = "2";
 
 std::filesystem::path checkpoint_folder(const Store& store, const std::string& key) {
   auto folder = store.checkpoint_path(kKind, key);
@@ -31,7 +34,8 @@ std::string operator_key(const LineConfig& config, const ConfiguredStage& stage)
     const auto files = file_hashes_json(stage.inputs_json, config.file.parent_path());
     return files.empty() ? std::string("{}") : files;
   }() + "}";
-  return store_key(kKind, inputs, {}, std::string(stage.descriptor->name) + " " + std::string(stage.descriptor->code_version));
+  return store_key(kKind, inputs, {},
+                   std::string(stage.descriptor->name) + " " + std::string(stage.descriptor->code_version) + " shared " + kSharedCodeVersion);
 }
 
 StageOperator obtain_operator(const LineConfig& config, const ConfiguredStage& stage, Context& context) {

@@ -92,9 +92,8 @@ void write_score_json(const std::filesystem::path& file, const SyncResult& s) {
   report.before_definition = "the graphic printed as designed: its first corner on the slab's, unturned, sized for the dried slab";
   report.after_definition = "the graphic moved by the registration's print_from_green";
   report.best_reachable_definition =
-      "the graphic moved by the simulation's own displacement (press, cut, belt jitter, mean shift of the layer that is seen): what is left is blur "
-      "and the simplification of the "
-      "veins, which no registration can remove";
+      "the graphic moved by the simulation's own displacement (press, cut, belt jitter, mean shift of the layer that is seen): a reference, not a "
+      "strict bound; what is left is mostly blur and the simplification of the veins";
   write_text_atomically(file, sync::score_json_text(report, s.registration));
 }
 

@@ -37,14 +37,17 @@ std::string material_inputs_json(const LineBasics& b) {
 }
 
 std::string operator_inputs_json(const LineBasics& b) {
-  // Names, colours and the size of the slab are left out on purpose: a slice of the line knows nothing of them, so a larger slab reuses the
-  // operators.
+  // Colours and the size of the slab are left out on purpose: a slice of the line knows nothing of them, so a larger slab reuses the operators.
+  Json names = Json::array();
+  for (const auto& p : b.powders) names.push_back(p.name);
   return Json{{"materials", Json::parse(b.material_inputs_json)},
               {"belt_speed_m_s", b.belt_speed_m_s},
               {"bed_mass_kg_m2", b.bed_mass_kg_m2},
               {"nominal_springback", b.nominal_springback},
               {"moisture", b.moisture},
               {"layers", b.grid.nz},
+              {"grid_pitch_m", b.grid.pitch_m},  // kernels are binned in fractions of it
+              {"powder_names", names},           // figures and curves are named after them
               {"seed", b.seed},
               {"bootstrap_replicates", b.bootstrap_replicates}}
       .dump();

@@ -116,7 +116,8 @@ std::string Page::scores() const {
   return out +
          "</table></div>\n<p class=\"sub\">Distances count on matched length only, so read them with the matched length. Best reachable uses the "
          "displacement that the simulation itself produced; "
-         "what is left there is blur and the simplification of the veins.</p>\n";
+         "it is a reference, not a strict bound: the print is moved by the mean displacement of the layer that is seen, and what is left is mostly "
+         "blur and the simplification of the veins.</p>\n";
 }
 
 std::string Page::overlay() const {
@@ -137,7 +138,7 @@ std::string Page::overlay() const {
       select([](const auto& f) { return f.section == "sync" && f.file != "figures/overlay_before.png" && f.file != "figures/overlay_after.png"; }),
       false);
   if (!d.gates.empty()) {
-    out += format("<h3>Why the registration is believed</h3><p>Confidence %.2f. ", d.confidence) +
+    out += format("<h3>How the registration was judged</h3><p>Confidence %.2f. ", d.confidence) +
            (std::isfinite(d.true_median_mm)
                 ? format("Against the simulation's own displacement its error over the vein area is %.2f mm (median) and %.2f mm (P95).",
                          d.true_median_mm, d.true_p95_mm)
@@ -160,7 +161,9 @@ std::string Page::asked() const {
 
 std::string Page::slab() const {
   std::string out = "<h2 id=\"slab\">The slab that the line makes</h2>\n";
-  if (std::isfinite(d.top_bottom_mm)) out += format("<p>Between face and bottom the veins run %.1f mm along the belt.</p>\n", d.top_bottom_mm);
+  if (std::isfinite(d.top_bottom_mm))
+    out += format("<p>The veins of the bottom lie %.1f mm ", std::abs(d.top_bottom_mm)) + (d.top_bottom_mm < 0 ? "upstream" : "downstream") +
+           " of those of the face.</p>\n";
   for (const auto* name : {"figures/section_along.png", "figures/section_across.png"})
     if (const auto* f = find(name)) out += "<div class=\"wide\">" + figure(*f) + "</div>\n";
   return out + grid(select([](const auto& f) { return f.section == "slab" && f.file.find("section_") == std::string::npos; }), false);

@@ -173,6 +173,9 @@ PulseResponse estimate_pulse_response(const std::vector<TimedMass>& landed, cons
   }
   if (best.size() == 0) throw WorkError("the response of the device to its commands could not be fitted: the flow does not follow the commands");
   const DelayLaw law = FlowFit::law(best);
+  if (!(best[0] > 0) || !(law.mean_s > -0.5) || !(law.mean_s < end_s - start_s))
+    throw WorkError("the response of the device to its commands could not be fitted: flow " + std::to_string(best[0] * unit * 1e3) +
+                    " g/s at a mean delay of " + std::to_string(law.mean_s) + " s; give more or longer pulses");
   PulseResponse r;
   r.mass_flow_kg_s = best[0] * unit;
   const double sum = r.mass_flow_kg_s;

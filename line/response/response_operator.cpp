@@ -47,7 +47,6 @@ std::vector<Landing> landings_of(const PulseResponse& r, const LateralHistogram&
 Operator operator_from_response(const ResponseOperatorInput& in) {
   const PulseResponse best = estimate_pulse_response(in.landed, in.pulses, in.start_s, in.end_s, in.options);
   const LateralHistogram lateral = lateral_histogram(in.shifts, in.lateral_bin_m);
-  // One landing set decides the grid; replicates are deposited on the same grid by sharing its corner landings with no weight.
   const std::vector<Landing> landings = landings_of(best, lateral);
   std::vector<std::vector<Landing>> sets{landings};
   for (int k = 0; k < in.replicates; ++k) {
@@ -66,7 +65,7 @@ Operator operator_from_response(const ResponseOperatorInput& in) {
   op.figures["rise_s"] = best.rise_s;
   op.figures["superposition_defect"] = best.superposition_defect;
   op.figures["pulse_mass_scatter"] = best.mass_per_pulse_error;
-  if (best.superposition_defect > 0.15)
+  if (!(best.superposition_defect <= 0.15))
     op.warnings.push_back("response is not linear: superposition defect " + std::to_string(best.superposition_defect) +
                           " > 0.15 (pulses of other lengths may differ)");
   op.curves["step response"] = {{"time_s", best.edge_time_s},

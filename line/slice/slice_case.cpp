@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.h"
 #include "base/rng.h"
 #include "base/units.h"
 
@@ -54,7 +55,17 @@ std::size_t add_profile_wall(dem::Case& c, std::string name, const Profile& yz_m
 dem::CaseResult run_slice(const dem::Case& c, const std::filesystem::path& checkpoint, Context& context) {
   dem::RunOptions options;
   options.checkpoint = checkpoint;
-  return run_case(c, options, context);
+  // Kept until the operator is in the store (the chain then removes the folder): an interruption after the DEM does not repeat it.
+  options.keep_checkpoint = true;
+  if (!std::filesystem::exists(checkpoint)) return run_case(c, options, context);
+  try {
+    return run_case(c, options, context);
+  } catch (const UsageError& e) {
+    // A state that another version of the program left under the same key.
+    context.log.warn(std::string(e.what()) + ": started anew");
+    std::filesystem::remove(checkpoint);
+    return run_case(c, options, context);
+  }
 }
 
 dem::CaseCost estimate_slice_cost(const dem::Case& c, int threads) {
@@ -85,9 +96,9 @@ double mean_grain_m(const LineBasics& basics, int powder, double coarse_graining
   return std::cbrt(6.0 * mass / (M_PI * spec.granule_density_kg_m3));
 }
 
-void warn_if_too_coarse(const LineBasics& basics, const SliceNumerics& numerics, std::string_view what, double opening_m,
+void warn_if_too_coarse(const LineBasics& basics, int powder, const SliceNumerics& numerics, std::string_view what, double opening_m,
                         std::vector<std::string>& warnings) {
-  const double d = mean_grain_m(basics, basics.body_powder, numerics.coarse_graining);
+  const double d = mean_grain_m(basics, powder, numerics.coarse_graining);
   const double k = 1.4;  // Beverloo's empty-annulus constant (verification.md 8)
   if (opening_m >= 6 * d) return;
   const double d1 = d / numerics.coarse_graining;

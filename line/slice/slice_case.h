@@ -31,8 +31,8 @@ dem::CaseResult run_slice(const dem::Case& c, const std::filesystem::path& check
 /// Cost of a slice that is fed under level control: it holds about as many grains as it starts with, however many pass through.
 dem::CaseCost estimate_slice_cost(const dem::Case& c, int threads);
 
-/// Warns where coarse grains are too coarse for an opening: fewer than 6 largest-grain diameters (Beverloo's range), with numbers.
-void warn_if_too_coarse(const LineBasics& basics, const SliceNumerics& numerics, std::string_view what, double opening_m,
+/// Warns where coarse grains are too coarse for an opening: fewer than 6 mean diameters of the powder (Beverloo's range), with numbers.
+void warn_if_too_coarse(const LineBasics& basics, int powder, const SliceNumerics& numerics, std::string_view what, double opening_m,
                         std::vector<std::string>& warnings);
 
 /// Largest, smallest and mean (by number) coarse-grained grain diameter of a powder [m].

@@ -38,7 +38,7 @@ std::function<Stage(ObjectReader&)> stage_reader(const StageParts<Config>& parts
 /// KPIs of how far the line's set-up is from the measured delay, and of the operator's figures named.
 inline void add_delay_kpi(StageOutput& out, const Operator& op, double nominal_delay_s, double belt_speed_m_s) {
   out.kpi["residual_delay_s"] = op.reference_delay_s - nominal_delay_s;
-  out.kpi["residual_shift_m"] = (op.reference_delay_s - nominal_delay_s) * belt_speed_m_s;
+  out.kpi["residual_shift_m"] = (nominal_delay_s - op.reference_delay_s) * belt_speed_m_s;  // late powder lies upstream: negative
 }
 inline void add_figures_as_kpi(StageOutput& out, const Operator& op, std::initializer_list<const char*> names) {
   for (const char* name : names)

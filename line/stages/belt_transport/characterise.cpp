@@ -177,7 +177,7 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   op.curves["profiles on the next belt"] = {
       {"height_mm", height}, {"velocity_m_s", velocity}, {"solid_fraction", fraction}, {"diffusivity_mm2_s", diffusivity}};
   add_slice_figures(slice, result, op);
-  warn_if_too_coarse(basics, c.numerics, "levelling gate", c.gate_m, op.warnings);
+  warn_if_too_coarse(basics, basics.body_powder, c.numerics, "levelling gate", c.gate_m, op.warnings);
   return op;
 }
 }  // namespace venato::line::belt_transport

@@ -48,6 +48,7 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
   rain.powder_mass_fractions = {1.0};
   rain.mass_rate_kg_s = 1.6 * basics.bed_mass_kg_m2 * v * width;  // the level control sets the rate
   rain.level_z_m = c.level_m;
+  rain.resting_speed_m_s = std::max(rain.resting_speed_m_s, 2 * v * c.gate_m / c.bin_m);  // twice the speed at which the bin sinks
   rain.velocity_m_s = Vec3(0, 0, -0.6);
   s.rains.push_back(rain);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/error.h"
 #include "base/rng.h"
 #include "base/units.h"
 #include "line/response/response_operator.h"
@@ -19,7 +20,7 @@ std::vector<PulseWindow> pulse_train(const Config& c, const LineBasics& basics) 
 }
 
 double train_duration(const Config& c, const std::vector<PulseWindow>& train) {
-  // The last pulse still has to fall on the belt: free fall plus twice the nominal delay.
+  // The last pulse still has to reach the belt: free fall plus the time a heap takes to let go (measured delays scatter by less than 0.1 s).
   return train.back().off_s + std::sqrt(2 * c.fall_m / kStandardGravity_m_s2) + 0.12;
 }
 
@@ -132,6 +133,9 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
     const dem::CaseResult level = run_slice(make_case(c, basics, name, c.drive_levels[k], {{c.settle_s, until}}, until),
                                             folder / ("drive" + std::to_string(k) + ".ckpt"), context);
     const double from = c.settle_s + op.reference_delay_s + 0.05;
+    if (until - from < 0.1)
+      throw WorkError("piezo_discharge: powder arrives only " + std::to_string(op.reference_delay_s) +
+                      " s after the command, too late to measure the flow at further drive levels; set /drive/levels to []");
     double mass = 0;
     for (const dem::CounterRecord& g : level.records[kBelt])
       if (g.time_s >= from) mass += g.mass_kg;
@@ -142,7 +146,7 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   flow.push_back(per_prong * 1e3);
   op.curves["flow against drive"] = {{"drive", drive}, {"mass_flow_g_s", flow}};
   add_slice_figures(main_case, result, op);
-  warn_if_too_coarse(basics, c.numerics, "prong gap", c.gap_m, op.warnings);
+  warn_if_too_coarse(basics, basics.vein_powder, c.numerics, "prong gap", c.gap_m, op.warnings);
   return op;
 }
 }  // namespace venato::line::piezo_discharge

@@ -56,6 +56,12 @@ void read(ObjectReader& r, Config& c) {
     r.issue("geometry", "actuators of neighbouring hoppers touch: spacing_mm must exceed outlet_mm by 12 mm", "raise spacing_mm");
   if (c.hopper_width_m <= c.outlet_m || c.spacing_m < c.hopper_width_m + 0.002)
     r.issue("geometry", "hopper_width_mm must exceed outlet_mm and stay 2 mm below spacing_mm", "adjust hopper_width_mm");
+  if (c.gate_travel_time_s > 0.6 * c.on_share * 0.85 * c.cycle_s / 2)
+    r.issue("actuator", "travel_time_ms leaves no time fully open within on_share of the cycle", "lower travel_time_ms or raise cycle_s");
+  const double rim = c.throat_m / 2 + (c.drop_m - c.throat_height_m - 0.008) / std::tan(c.funnel_angle_rad);
+  if (rim < (c.spacing_m + c.outlet_m) / 2)
+    r.issue("geometry", "the funnel's rim is narrower than the row of two outlets: powder would fall beside it",
+            "lower funnel_angle_deg or spacing_mm, or raise drop_mm");
   if (c.target_m > c.throat_m) r.issue("geometry", "target_mm is wider than throat_mm", "lower target_mm");
   if (c.drop_m < c.throat_height_m + 0.01) r.issue("geometry", "drop_mm must exceed throat_height_mm by 10 mm", "raise drop_mm");
 }

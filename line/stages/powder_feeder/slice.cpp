@@ -100,6 +100,8 @@ dem::Case make_case(const Config& c, const LineBasics& basics) {
   landing.position_m = 0;
   landing.sign = -1;
   landing.remove = true;
+  landing.window_low.y() = -c.throat_m / 2 - 0.001;
+  landing.window_high.y() = c.throat_m / 2 + 0.001;
   s.counters.push_back(landing);
   return s;
 }
@@ -176,7 +178,7 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
   }
   op.figures["mass_flow_unevenness"] = highest > 0 ? (highest - lowest) / highest : std::nan("");
   add_slice_figures(slice, result, op);
-  warn_if_too_coarse(basics, c.numerics, "hopper outlet", c.outlet_m, op.warnings);
+  warn_if_too_coarse(basics, basics.body_powder, c.numerics, "hopper outlet", c.outlet_m, op.warnings);
   return op;
 }
 }  // namespace venato::line::powder_feeder

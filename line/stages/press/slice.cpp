@@ -102,8 +102,6 @@ Operator characterise(const Config& c, const LineBasics& basics, const std::file
     }
   const double bin = std::max(sigma / 3, basics.grid.pitch_m / 16);
   Operator op = operator_from_landings("press", landings, 1, 1, bin / basics.belt_speed_m_s, bin, false);
-  for (int k = 0; k < basics.bootstrap_replicates; ++k)
-    op.replicates.push_back(op.weight), op.replicate_reference_delay_s.push_back(op.reference_delay_s);
 
   const double d = mean_grain_m(basics, basics.body_powder, cg);
   op.figures["sigma_nonaffine_m"] = sigma;

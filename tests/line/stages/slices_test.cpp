@@ -87,9 +87,9 @@ TEST(Slices, WarnsWithNumbersWhenAnOpeningIsTooNarrowForTheCoarseGrains) {
   SliceNumerics n;
   n.coarse_graining = 4;
   std::vector<std::string> warnings;
-  warn_if_too_coarse(b, n, "slot", 0.05, warnings);
+  warn_if_too_coarse(b, 0, n, "slot", 0.05, warnings);
   EXPECT_TRUE(warnings.empty());
-  warn_if_too_coarse(b, n, "slot", 0.004, warnings);
+  warn_if_too_coarse(b, 0, n, "slot", 0.004, warnings);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("slot: opening 4.0 mm"), std::string::npos) << warnings[0];
 }
