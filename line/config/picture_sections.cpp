@@ -27,12 +27,13 @@ void read_graphic(ObjectReader& r, GraphicConfig& g) {
   r.path("image", image, PathKind::existing_file, {"the inkjet graphic as one picture; instead of `layers`", ""});
   std::vector<GraphicLayer> layers;
   if (r.describing() || r.has("layers")) {
-    r.objects("layers", "the inkjet graphic as layers, multiplied in this order; instead of `image`", 1, 16, [&](ObjectReader& o, std::size_t) {
-      GraphicLayer layer;
-      o.path("image", layer.image, PathKind::existing_file, {"picture of this layer"});
-      o.boolean("warp", layer.warp, {"true: moves with the veins; false: keeps its place on the print", true});
-      layers.push_back(layer);
-    });
+    r.objects("layers", "the inkjet graphic as layers, multiplied in this order; instead of `image`", r.describing() ? 0 : 1, 16,
+              [&](ObjectReader& o, std::size_t) {
+                GraphicLayer layer;
+                o.path("image", layer.image, PathKind::existing_file, {"picture of this layer"});
+                o.boolean("warp", layer.warp, {"true: moves with the veins; false: keeps its place on the print", true});
+                layers.push_back(layer);
+              });
   }
   if (!r.describing()) {
     if (r.has("image") == r.has("layers"))
