@@ -10,22 +10,19 @@
 #include "dem/contact/hertz_mindlin/law.h"
 #include "dem/neighbours/cell_grid.h"
 #include "dem/neighbours/pair_list.h"
+#include "dem/neighbours/reach_plan.h"
+#include "dem/simulation/pair_lanes.h"
 #include "dem/simulation/simulation.h"
 #include "dem/walls/wall_model.h"
 
 namespace venato::dem {
 
-/// What a touching pair reads besides the spheres: one cache line.
-struct alignas(64) Motion {
-  Trio velocity, spin;
-  double inverse_mass;  ///< 0 = frozen
-  double mass;
-};
 struct Load {
   Trio force, torque;
 };
 struct GrainCard {  ///< cold data
   GrainId id;
+  double mass;
   std::int32_t species, material;
   std::array<std::int32_t, 3> image;  ///< unwrapped = position + image * box length
   std::uint8_t frozen, removed;
@@ -63,7 +60,8 @@ struct WallList {
 
 /// Sums of one block of grains; blocks do not depend on the thread count, and are added in order.
 struct BlockBook {
-  double moved2 = 0, speed2 = 0, overlap = 0;
+  bool strayed = false;  ///< a grain left its path in the neighbour list by more than its allowance
+  double speed2 = 0, overlap = 0;
   GrainId fastest = -1;
   std::int64_t contacts = 0;
   ContactLoss loss;
@@ -82,16 +80,15 @@ struct Simulation::Impl {
   AnyLawTable laws;
   PeriodicBox box;
   std::array<double, 3> snap{};  ///< see snapped()
-  std::vector<Trio> image_shift;
   std::vector<Counter> counters;
 
   // state
   std::vector<Sphere> sphere;
   std::vector<Motion> motion;
-  std::vector<Load> load;
+  std::vector<Load> load;  ///< of contacts only, valid unless `pending`
   std::vector<GrainCard> card;
   std::vector<std::int32_t> slot_of_id;  ///< -1 = removed
-  PairList pairs, spare_pairs;
+  PairList pairs;
   WallList wall_list;
   std::vector<WallModel> walls;
   std::vector<Vec3> wall_impulse;
@@ -102,15 +99,22 @@ struct Simulation::Impl {
 
   // neighbour list book-keeping
   CellGrid grid;
-  std::vector<Sphere> sphere_at_build;
+  PairListBuilder pair_builder;
+  std::vector<Anchor> anchor;  ///< [slot]; see dem/neighbours/reach_plan.h
+  std::vector<double> reach;   ///< [slot] of the search, when the list was built
+  ReachExperience reach_experience;
+  double list_life_s = 0, farthest_m = 0;
   std::int64_t listed = 0;  ///< grains in the list; later slots are new
-  double skin = 0;
   std::int64_t step_of_build = 0;
   bool list_valid = false, forces_valid = false;
+  /// Contact forces of the present positions stand in their slots, not yet summed, and the velocities lack the second half kick: the next step does
+  /// both in the pass that moves the grains, unless somebody looks before (finish_step). Same bytes either way.
+  bool pending = false;
   bool one_material = true;  ///< all grains of one material: law parameters stay in the batch
   std::vector<Crossing> crossings;
   std::vector<BlockBook> books;
   StepStatistics stats;
+  std::int64_t living = 0;  ///< grains not removed
 
   std::int64_t grains() const { return static_cast<std::int64_t>(sphere.size()); }
   std::int64_t blocks() const { return (grains() + kGrainsPerBlock - 1) / kGrainsPerBlock; }
@@ -122,15 +126,19 @@ struct Simulation::Impl {
   void step_once();
   void evaluate();
   void move_walls(double time_s);
-  void kick_and_drift();
+  void advance();      ///< sums of the last step and its second half kick (if pending), first half kick, drift
+  void finish_step();  ///< sums and second half kick now
+  bool strayed() const;
   bool list_is_stale() const;
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
-  void pair_forces(double dt);
-  void gather_and_kick(double dt);  ///< sums pair forces, adds walls and gravity, second half kick (dt = 0: no kick)
+  void contact_forces(double dt);  ///< of all pairs and wall contacts, into their slots
+  Load contact_load(std::size_t slot) const;  ///< sum of a grain's contacts in ascending order of the partners' ids, then walls
+  void kick(Motion& m, const Load& l, double half) const;
+  PairView pair_view();
   void settle_books(double dt);
   template <class L>
-  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book, std::vector<WallContact>& scratch);
+  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch);
 
   // helpers
   /// Rounds a displacement to the grid of 2^-52 of the box size in periodic directions: positions are then exact multiples of one quantum, so that

@@ -10,8 +10,9 @@ namespace venato::dem {
 namespace {
 GrainState state_of(const Simulation::Impl& e, std::size_t s) {
   const Motion& m = e.motion[s];
-  return {e.card[s].id,  e.unwrapped(s), to_vec3(m.velocity), to_vec3(m.spin),    to_vec3(e.load[s].force), to_vec3(e.load[s].torque),
-          e.sphere[s].r, m.mass,         e.card[s].species,   e.card[s].material, e.card[s].frozen != 0};
+  const GrainCard& c = e.card[s];
+  return {c.id,          e.unwrapped(s), to_vec3(m.velocity), to_vec3(m.spin), to_vec3(e.load[s].force) + c.mass * e.setup.gravity_m_s2,
+          to_vec3(e.load[s].torque), e.sphere[s].r, c.mass, c.species, c.material, c.frozen != 0};
 }
 
 /// Slots of living grains by ascending id.
@@ -22,14 +23,18 @@ std::vector<std::size_t> by_id(const Simulation::Impl& e) {
   return slots;
 }
 
-bool living(const Simulation::Impl& e, std::size_t s) { return !e.card[s].removed; }
+bool alive(const Simulation::Impl& e, std::size_t s) { return !e.card[s].removed; }
+
+std::size_t partner(const Simulation::Impl& e, std::size_t p) { return static_cast<std::size_t>(e.pairs.j[p]); }
 
 /// Geometry of a touching pair at the present positions, enough for reading (no motion in it).
 ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::size_t p, Trio& to_j) {
-  const std::size_t j = static_cast<std::size_t>(e.pairs.pair[p].j);
+  const std::size_t j = partner(e, p);
   const Sphere &a = e.sphere[i], &c = e.sphere[j];
-  const Trio& shift = e.image_shift[static_cast<std::size_t>(e.pairs.pair[p].image)];
-  to_j = {(c.x - a.x) + shift.x, (c.y - a.y) + shift.y, (c.z - a.z) + shift.z};
+  double d[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (e.box.length[k] > 0) d[k] -= std::round(d[k] / e.box.length[k]) * e.box.length[k];
+  to_j = {d[0], d[1], d[2]};
   ContactGeometry g{};
   g.normal = (1 / length(to_j)) * to_j;
   g.overlap = std::max(0.0, a.r + c.r - length(to_j));
@@ -42,13 +47,13 @@ void for_touching_pairs(const Simulation::Impl& e, const F& f) {
   const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
   for (std::size_t i = 0; i < listed; ++i)
     for (std::size_t p = static_cast<std::size_t>(e.pairs.first[i]); p < static_cast<std::size_t>(e.pairs.first[i + 1]); ++p)
-      if (e.pairs.touching[p] && living(e, i) && living(e, static_cast<std::size_t>(e.pairs.pair[p].j))) f(i, p);
+      if (e.pairs.touching[p] && alive(e, i) && alive(e, partner(e, p))) f(i, p);
 }
 template <class F>
 void for_wall_contacts(const Simulation::Impl& e, const F& f) {
   for (std::size_t s = 0; s < e.wall_list.contact_count.size(); ++s)
     for (std::size_t k = 0; k < e.wall_list.contact_count[s]; ++k)
-      if (living(e, s)) f(s, e.wall_list.contact[static_cast<std::size_t>(e.wall_list.contact_first[s]) + k]);
+      if (alive(e, s)) f(s, e.wall_list.contact[static_cast<std::size_t>(e.wall_list.contact_first[s]) + k]);
 }
 
 /// FNV-1a over 64-bit words.
@@ -65,18 +70,19 @@ struct Hash {
 }  // namespace
 
 std::size_t Simulation::grain_count() const {
-  return static_cast<std::size_t>(std::count_if(impl_->card.begin(), impl_->card.end(), [](const GrainCard& c) { return !c.removed; }));
+  return static_cast<std::size_t>(impl_->living);
 }
 bool Simulation::has_grain(GrainId id) const {
   return id >= 0 && id < static_cast<GrainId>(impl_->slot_of_id.size()) && impl_->slot_of_id[static_cast<std::size_t>(id)] >= 0;
 }
-GrainState Simulation::grain(GrainId id) const { return state_of(*impl_, impl_->slot(id)); }
+GrainState Simulation::grain(GrainId id) const { impl_->finish_step(); return state_of(*impl_, impl_->slot(id)); }
 std::vector<GrainId> Simulation::grain_ids() const {
   std::vector<GrainId> ids;
   for (const std::size_t s : by_id(*impl_)) ids.push_back(impl_->card[s].id);
   return ids;
 }
 std::vector<GrainState> Simulation::grains() const {
+  impl_->finish_step();
   std::vector<GrainState> all;
   for (const std::size_t s : by_id(*impl_)) all.push_back(state_of(*impl_, s));
   return all;
@@ -92,7 +98,7 @@ std::vector<ContactState> Simulation::contacts() const {
     const ContactHistory& h = e.pairs.history[p];
     const Trio across_n = across(f.on_i, g.normal);
     const Trio rolling = f.torque_i - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.on_i);
-    all.push_back({e.card[i].id, e.pairs.partner[p], -1, g.overlap, to_vec3(g.normal), -dot(f.on_i, g.normal), to_vec3(h.spring), to_vec3(across_n),
+    all.push_back({e.card[i].id, e.card[partner(e, p)].id, -1, g.overlap, to_vec3(g.normal), -dot(f.on_i, g.normal), to_vec3(h.spring), to_vec3(across_n),
                    to_vec3(h.rolling), to_vec3(rolling), to_vec3(f.on_i), to_vec3(f.torque_i)});
   });
   const std::size_t pair_count = all.size();
@@ -122,14 +128,15 @@ bool Simulation::wall_present(int wall) const { return impl_->walls.at(static_ca
 Vec3 Simulation::wall_point_m(int wall, const Vec3& p) const { return impl_->walls.at(static_cast<std::size_t>(wall)).point_to_world(p); }
 
 EnergyBook Simulation::energy() const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   EnergyBook b;
   for (const std::size_t s : by_id(e)) {
     if (e.card[s].frozen) continue;
     const Motion& m = e.motion[s];
-    b.kinetic_translation_j += 0.5 * m.mass * dot(m.velocity, m.velocity);
-    b.kinetic_rotation_j += 0.2 * m.mass * e.sphere[s].r * e.sphere[s].r * dot(m.spin, m.spin);
-    b.potential_j -= m.mass * e.setup.gravity_m_s2.dot(e.unwrapped(s));
+    b.kinetic_translation_j += 0.5 * e.card[s].mass * dot(m.velocity, m.velocity);
+    b.kinetic_rotation_j += 0.2 * e.card[s].mass * e.sphere[s].r * e.sphere[s].r * dot(m.spin, m.spin);
+    b.potential_j -= e.card[s].mass * e.setup.gravity_m_s2.dot(e.unwrapped(s));
   }
   std::visit(
       [&](const auto& table) {
@@ -139,7 +146,7 @@ EnergyBook Simulation::energy() const {
         for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
           Trio to_j;
           const ContactGeometry g = resting_geometry(e, i, p, to_j);
-          add(table.of(e.card[i].material, e.card[static_cast<std::size_t>(e.pairs.pair[p].j)].material).energy(g, e.pairs.history[p]));
+          add(table.of(e.card[i].material, e.card[partner(e, p)].material).energy(g, e.pairs.history[p]));
         });
         for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {
           ContactGeometry g{};
@@ -169,7 +176,7 @@ bool Simulation::is_free(const Vec3& position, double radius) const {
   const Impl& e = *impl_;
   const Vec3 p = e.wrapped(position);
   auto apart = [&](std::size_t s) {
-    if (!living(e, s)) return true;
+    if (!alive(e, s)) return true;
     double d[3] = {e.sphere[s].x - p.x(), e.sphere[s].y - p.y(), e.sphere[s].z - p.z()};
     for (std::size_t a = 0; a < 3; ++a)
       if (e.box.length[a] > 0) d[a] -= std::round(d[a] / e.box.length[a]) * e.box.length[a];
@@ -180,7 +187,7 @@ bool Simulation::is_free(const Vec3& position, double radius) const {
   const std::size_t from = e.setup.brute_force_neighbours ? 0 : static_cast<std::size_t>(e.listed);
   for (std::size_t s = from; s < e.sphere.size() && free; ++s) free = apart(s);
   if (free && from > 0)
-    e.grid.for_runs_near(p.x(), p.y(), p.z(), radius + 0.5 * e.skin, [&](std::int32_t a, std::int32_t b) {
+    e.grid.for_runs_near(p.x(), p.y(), p.z(), radius + e.farthest_m, [&](std::int32_t a, std::int32_t b) {
       for (std::int32_t s = a; s < b && free; ++s) free = apart(static_cast<std::size_t>(s));
     });
   return free;
@@ -208,19 +215,23 @@ double Simulation::wall_gap_m(const Vec3& position, double radius) const {
 }
 
 double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_speed_m_s) const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   double top = -std::numeric_limits<double>::infinity();
   const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
   for (std::size_t s = 0; s < listed; ++s) {
     const Sphere& x = e.sphere[s];
-    if (!living(e, s) || x.z <= top) continue;
+    if (!alive(e, s) || x.z <= top) continue;
     const Trio& v = e.motion[s].velocity;
     if (v.x * v.x + v.y * v.y + v.z * v.z > resting_speed_m_s * resting_speed_m_s) continue;
     const Vec3 p = e.wrapped(Vec3(x.x, x.y, x.z));
     if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
     bool touches = e.wall_list.contact_count[s] > 0;
-    for (std::int32_t k = e.pairs.incident_first[s]; k < e.pairs.incident_first[s + 1] && !touches; ++k)
-      touches = e.pairs.touching[e.pairs.incident[static_cast<std::size_t>(k)] >> 1] != 0;
+    auto marked = [&](const RawArray<std::uint8_t>& mark, std::int32_t first, std::int32_t last) {
+      return std::find(mark.data() + first, mark.data() + last, std::uint8_t{1}) != mark.data() + last;
+    };
+    touches = touches || marked(e.pairs.touching, e.pairs.first[s], e.pairs.first[s + 1]) ||
+              marked(e.pairs.in_touching, e.pairs.in_first[s], e.pairs.in_first[s + 1]);
     if (touches) top = x.z;
   }
   return top;
@@ -229,7 +240,7 @@ double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_s
 std::vector<GrainId> Simulation::grains_outside(const Box& box) const {
   std::vector<GrainId> ids;
   for (std::size_t s = 0; s < impl_->sphere.size(); ++s) {
-    if (!living(*impl_, s)) continue;
+    if (!alive(*impl_, s)) continue;
     const double p[3] = {impl_->sphere[s].x, impl_->sphere[s].y, impl_->sphere[s].z};
     for (int a = 0; a < 3; ++a)
       if (!box.periodic[a] && !(p[a] >= box.low[a] && p[a] <= box.high[a])) {
@@ -242,6 +253,7 @@ std::vector<GrainId> Simulation::grains_outside(const Box& box) const {
 }
 
 std::uint64_t Simulation::state_hash() const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   Hash h;
   h.add(static_cast<std::uint64_t>(e.step_count));
@@ -254,7 +266,7 @@ std::uint64_t Simulation::state_hash() const {
   std::uint64_t contacts = 0;  // sum of hashes: does not depend on the order of slots
   for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
     Hash c;
-    c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.pairs.partner[p])), c.add(e.pairs.history[p]);
+    c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.card[partner(e, p)].id)), c.add(e.pairs.history[p]);
     contacts += c.h;
   });
   for_wall_contacts(e, [&](std::size_t s, const WallContact& w) {

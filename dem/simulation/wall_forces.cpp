@@ -22,7 +22,7 @@ const WallContact* continued(std::span<const WallContact> before, std::uint32_t&
   return best;
 }
 
-ContactGeometry wall_frame(const Sphere& x, const Motion& m, const Trio& n, const Trio& n_before, double overlap, const Trio& wall_velocity,
+ContactGeometry wall_frame(const Sphere& x, const Motion& m, double mass, const Trio& n, const Trio& n_before, double overlap, const Trio& wall_velocity,
                            const Trio& wall_spin, double dt) {
   const Trio dv = wall_velocity - m.velocity, sum = n + n_before;
   const Trio n_half = (1 / length(sum)) * sum;
@@ -32,17 +32,18 @@ ContactGeometry wall_frame(const Sphere& x, const Motion& m, const Trio& n, cons
   g.slide = cross(x.r * m.spin, n_half) - across(dv, n_half);  // lever R on walls: the spin identities of verification.md 3.1 hold exactly
   g.roll = across(m.spin - wall_spin, n);
   g.normal = n;
-  g.turn = frame_turn(n_before, n, n, 0.5 * dot(m.spin + wall_spin, n) * dt);
+  const double angle = 0.5 * dot(m.spin + wall_spin, n) * dt, both = std::sqrt(dot(n_before, n_before) * dot(n, n));
+  g.turn = frame_turn(n_before, n, n, angle, both);
+  g.turn.scale = 1 / (both * g.turn.cosine * (1 + 0.25 * angle * angle));
   g.r_eff = x.r;  // R* = R on every wall, also inside cylinders
-  g.m_eff = m.mass;
-  g.i_roll = 1.4 * m.mass * x.r * x.r;
+  g.m_eff = mass;
+  g.i_roll = 1.4 * mass * x.r * x.r;
   return g;
 }
 }  // namespace
 
 template <class L>
-void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book,
-                                   std::vector<WallContact>& scratch) {
+void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch) {
   const Sphere& x = sphere[s];
   const Motion& m = motion[s];
   WallContact* row = wall_list.contact.data() + wall_list.contact_first[s];
@@ -62,13 +63,11 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
       const WallContact* old = continued(before, taken, c.wall, n);
       WallContact now{c.wall, old ? old->history : ContactHistory{}, n, x.r - touches.touch[t].distance, {}, {}, {}};
       const ContactHistory earlier = now.history;
-      const ContactGeometry g = wall_frame(x, m, n, old ? old->normal : n, now.overlap, wall_velocity, wall_spin, dt);
+      const ContactGeometry g = wall_frame(x, m, card[s].mass, n, old ? old->normal : n, now.overlap, wall_velocity, wall_spin, dt);
       const L& law = table.of(card[s].material, w.wall.material);
       now.force = law.force(g, now.history, dt);
       now.on_grain = now.force.tangential - now.force.normal * n;
       now.torque_on_grain = x.r * cross(n, now.force.tangential) + now.force.rolling;
-      sum.force = sum.force + now.on_grain;
-      sum.torque = sum.torque + now.torque_on_grain;
       const Vec3 on_wall = -to_vec3(now.on_grain);
       book.wall[static_cast<std::size_t>(c.wall)].force_n += on_wall;
       book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
@@ -88,6 +87,6 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
   std::copy(scratch.begin(), scratch.end(), row);
   wall_list.contact_count[s] = static_cast<std::uint8_t>(scratch.size());
 }
-template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, Load&, BlockBook&, std::vector<WallContact>&);
-template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, Load&, BlockBook&, std::vector<WallContact>&);
+template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, BlockBook&, std::vector<WallContact>&);
+template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, BlockBook&, std::vector<WallContact>&);
 }  // namespace venato::dem

@@ -16,17 +16,16 @@ VENATO_KERNEL double unload_ratio(double radius_now, double radius_before) { ret
 /// \return total on i, |total| <= cap
 VENATO_KERNEL Trio capped_spring(Trio& spring, const ContactGeometry& g, double ratio, const Trio& rate, double stiffness, double damping, double cap,
                                  double dt) {
-  const double two = 2 / (1 + dot(g.turn, g.turn));
-  const Trio turned = across(rotate(spring, g.turn, two), g.normal);  // projection only removes rounding
+  const Trio turned = across(rotate(spring, g.turn), g.normal);  // projection only removes rounding
   const Trio trial = ratio * turned - (stiffness * dt) * rate;
-  const double size = length(trial);
-  const bool slips = size > cap;
-  const double cut = slips ? cap / size : 1.0;
-  spring = cut * trial;
-  const double active_damping = slips ? 0.0 : damping;
-  const Trio total = spring - active_damping * rate;
-  const double total_size = length(total);
-  return (total_size > cap ? cap / total_size : 1.0) * total;
+  const double cap2 = cap * cap;
+  const bool slips = dot(trial, trial) > cap2;
+  const Trio whole = trial - (slips ? 0.0 : damping) * rate;
+  const double size2 = dot(whole, whole);
+  const double cut = cap / std::sqrt(size2);  // taken or not: lanes know no branches
+  const Trio total = (size2 > cap2 ? cut : 1.0) * whole;
+  spring = Trio{slips ? total.x : trial.x, slips ? total.y : trial.y, slips ? total.z : trial.z};
+  return total;
 }
 
 /// Energy lost by one capped spring in one step: shrinking / stiffening, slip (both in .first), damping (.second). Each is >= 0.
@@ -36,8 +35,7 @@ struct SpringLoss {
 inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio& total, const ContactGeometry& g, double ratio, const Trio& rate,
                               double stiffness_before, double stiffness, double dt) {
   if (!(stiffness > 0)) return {0, -dot(total, rate) * dt};
-  const double two = 2 / (1 + dot(g.turn, g.turn));
-  const Trio shrunk = ratio * across(rotate(before, g.turn, two), g.normal);
+  const Trio shrunk = ratio * across(rotate(before, g.turn), g.normal);
   const Trio trial = shrunk - (stiffness * dt) * rate;
   const double held = stiffness_before > 0 ? dot(before, before) / (2 * stiffness_before) : 0;
   const double rescaling = held - dot(shrunk, shrunk) / (2 * stiffness);

@@ -21,6 +21,7 @@ struct alignas(64) PairBatch {
   double history[8][kBatchWidth];                                               ///< ContactHistory, member by member; in and out
   Lane force_x, force_y, force_z;                                               ///< out: on i [N]
   Lane torque_i_x, torque_i_y, torque_i_z, torque_j_x, torque_j_y, torque_j_z;  ///< out [N m]
+  Lane overlap;                                                                 ///< out [m]
 };
 
 struct PairFrame {
@@ -28,29 +29,44 @@ struct PairFrame {
   double arm_i, arm_j;  ///< [m] R - overlap/2: both torques act at one point, so angular momentum is exact
 };
 
+/// 1/a, 1/b, 1/c with one division: the divider is what bounds the contact loop.
+struct Inverses {
+  double a, b, c;
+};
+VENATO_KERNEL Inverses inverses(double a, double b, double c) {
+  const double bc = b * c, q = 1 / (a * bc);
+  return {q * bc, q * (a * c), q * (a * b)};
+}
+
 VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   const Trio to_j{b.from_i_x[l], b.from_i_y[l], b.from_i_z[l]}, dv{b.dv_x[l], b.dv_y[l], b.dv_z[l]};
   const Trio wi{b.wi_x[l], b.wi_y[l], b.wi_z[l]}, wj{b.wj_x[l], b.wj_y[l], b.wj_z[l]};
   const double ri = b.radius_i[l], rj = b.radius_j[l];
-  const double distance = length(to_j);
-  const Trio n = (1 / distance) * to_j;
+  // Positions of the last step and of the half step follow exactly from the half-step velocity: no old normal needs storing.
+  const Trio before = to_j - dt * dv, half = to_j - (0.5 * dt) * dv;
+  const double d2 = dot(to_j, to_j), half2 = dot(half, half), distance = std::sqrt(d2);
+  const double both = std::sqrt(dot(before, before) * d2);
+  const double twirl = (0.25 * dt) * dot(wi + wj, to_j);  // spin about the normal: tan(half the angle) = twirl / distance
+  const Inverses over = inverses(distance, half2, both * (both + dot(before, to_j)) * (d2 + twirl * twirl));
+  const Trio n = over.a * to_j;
   const double gap = ri + rj - distance;
   const double overlap = gap > 0 ? gap : 0.0;  // the touch test compares squares: rounding may leave -1e-20 here
   PairFrame f;
   f.arm_i = ri - 0.5 * overlap;
   f.arm_j = rj - 0.5 * overlap;
-  // Positions of the last step and of the half step follow exactly from the half-step velocity: no old normal needs storing.
-  const Trio before = to_j - dt * dv, half = to_j - (0.5 * dt) * dv;
-  const Trio n_half = (1 / length(half)) * half;
   f.g.overlap = overlap;
   f.g.approach = -dot(dv, n);
-  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, (1 / distance) * half) - across(dv, n_half);  // `half` is a chord: exact for rigid turns
+  const Trio across_half = dv - (dot(dv, half) * over.b) * half;                            // across the half-step normal
+  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, over.a * half) - across_half;  // `half` is a chord: exact for rigid turns
   f.g.roll = across(wi - wj, n);
   f.g.normal = n;
-  f.g.turn = frame_turn(before, to_j, n, 0.5 * dot(wi + wj, n) * dt);
-  f.g.r_eff = ri * rj / (ri + rj);
-  f.g.m_eff = 1 / (b.inverse_mass_i[l] + b.inverse_mass_j[l]);
-  f.g.i_roll = 1.4 / (b.inverse_mass_i[l] / (ri * ri) + b.inverse_mass_j[l] / (rj * rj));
+  f.g.turn = frame_turn(before, to_j, n, 2 * twirl * over.a, both);
+  f.g.turn.scale = d2 * over.c;
+  const double im_i = b.inverse_mass_i[l], im_j = b.inverse_mass_j[l], ri2 = ri * ri, rj2 = rj * rj;
+  const Inverses eff = inverses(ri + rj, im_i + im_j, im_i * rj2 + im_j * ri2);
+  f.g.r_eff = ri * rj * eff.a;
+  f.g.m_eff = eff.b;
+  f.g.i_roll = 1.4 * (ri2 * rj2) * eff.c;
   return f;
 }
 
@@ -69,6 +85,7 @@ VENATO_KERNEL void evaluate_lanes(PairBatch& b, int lanes, double dt, const Make
     const ContactForce c = law.force(f.g, h, dt);
     const Trio force = c.tangential - c.normal * f.g.normal;
     const Trio lever = cross(f.g.normal, c.tangential);
+    b.overlap[l] = f.g.overlap;
     b.force_x[l] = force.x, b.force_y[l] = force.y, b.force_z[l] = force.z;
     b.torque_i_x[l] = f.arm_i * lever.x + c.rolling.x;
     b.torque_i_y[l] = f.arm_i * lever.y + c.rolling.y;

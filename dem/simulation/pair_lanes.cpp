@@ -1,0 +1,192 @@
+#include "dem/simulation/pair_lanes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "dem/simulation/pair_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace venato::dem::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+static_assert(kLanes == 1 || kLanes == 2 || kLanes == 4 || kLanes == 8, "fixed-size vectors only");
+
+#if HWY_TARGET == HWY_SCALAR  // a CPU without SSSE3: one lane, nothing to transpose
+HWY_INLINE void columns(const double* const* row, int at, V& a, V& b) { a = hn::LoadU(D(), row[0] + at), b = hn::LoadU(D(), row[0] + at + 1); }
+HWY_INLINE void put_columns(const double* a, const double* b, double* const* row, int at) { row[0][at] = *a, row[0][at + 1] = *b; }
+#else
+/// Vector whose k-th pair of lanes is row[2 k + odd][at], row[2 k + odd][at + 1].
+template <class DD>
+HWY_INLINE hn::Vec<DD> blocks(DD d, const double* const* row, int odd, int at) {
+  if constexpr (hn::MaxLanes(DD()) == 2) {
+    return hn::LoadU(d, row[odd] + at);
+  } else {
+    const hn::Half<DD> half;
+    return hn::Combine(d, blocks(half, row + hn::MaxLanes(DD()) / 2, odd, at), blocks(half, row, odd, at));
+  }
+}
+/// Columns `at` and `at + 1` of kLanes rows.
+HWY_INLINE void columns(const double* const* row, int at, V& a, V& b) {
+  const D d;
+  const V even = blocks(d, row, 0, at), odd = blocks(d, row, 1, at);
+  a = hn::InterleaveLower(d, even, odd);
+  b = hn::InterleaveUpper(d, even, odd);
+}
+template <class DD>
+HWY_INLINE void put_blocks(DD d, hn::Vec<DD> v, double* const* row, int odd, int at) {
+  if constexpr (hn::MaxLanes(DD()) == 2) {
+    hn::StoreU(v, d, row[odd] + at);
+  } else {
+    const hn::Half<DD> half;
+    put_blocks(half, hn::LowerHalf(half, v), row, odd, at);
+    put_blocks(half, hn::UpperHalf(half, v), row + hn::MaxLanes(DD()) / 2, odd, at);
+  }
+}
+HWY_INLINE void put_columns(const double* a, const double* b, double* const* row, int at) {
+  const D d;
+  const V va = hn::Load(d, a), vb = hn::Load(d, b);
+  put_blocks(d, hn::InterleaveLower(d, va, vb), row, 0, at);
+  put_blocks(d, hn::InterleaveUpper(d, va, vb), row, 1, at);
+}
+#endif
+HWY_INLINE V nearest(V x, double length, double inverse) {
+  const D d;
+  return hn::Sub(x, hn::Mul(hn::Set(d, length), hn::Round(hn::Mul(x, hn::Set(d, inverse)))));
+}
+/// Centres of j seen from i, and radii.
+struct Apart {
+  V x, y, z, ri, rj;
+};
+HWY_INLINE Apart apart(const PairView& v, const double* const* i, const double* const* j) {
+  V ix, iy, iz, jx, jy, jz;
+  Apart p;
+  columns(i, 0, ix, iy), columns(i, 2, iz, p.ri);
+  columns(j, 0, jx, jy), columns(j, 2, jz, p.rj);
+  p.x = hn::Sub(jx, ix), p.y = hn::Sub(jy, iy), p.z = hn::Sub(jz, iz);
+  if (v.periodic) {
+    p.x = nearest(p.x, v.length[0], v.inverse_length[0]);
+    p.y = nearest(p.y, v.length[1], v.inverse_length[1]);
+    p.z = nearest(p.z, v.length[2], v.inverse_length[2]);
+  }
+  return p;
+}
+
+std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, std::uint32_t* out) {
+  const D d;
+  const auto* sphere = reinterpret_cast<const double*>(v.sphere);
+  std::size_t n = 0;
+  for (std::size_t p = from; p < to; p += 8) {
+    std::uint32_t bits = 0;
+    for (int g = 0; g < 8; g += kLanes) {
+      const double *i[kLanes], *j[kLanes];
+      for (int l = 0; l < kLanes; ++l) {
+        i[l] = sphere + 4 * static_cast<std::size_t>(v.i[p + static_cast<std::size_t>(g + l)]);
+        j[l] = sphere + 4 * static_cast<std::size_t>(v.j[p + static_cast<std::size_t>(g + l)]);
+      }
+      const Apart a = apart(v, i, j);
+      const V d2 = hn::Add(hn::Add(hn::Mul(a.x, a.x), hn::Mul(a.y, a.y)), hn::Mul(a.z, a.z)), reach = hn::Add(a.ri, a.rj);
+      std::uint8_t mask[8] = {};
+      hn::StoreMaskBits(d, hn::Lt(d2, hn::Mul(reach, reach)), mask);
+      bits |= static_cast<std::uint32_t>(mask[0]) << g;
+    }
+    const std::size_t valid = std::min<std::size_t>(8, to - p);
+    bits &= (1u << valid) - 1;
+    std::uint64_t before = 0;
+    std::memcpy(&before, v.touching + p, valid);
+    // One byte per bit, bit k to byte k (two halves: a multiplication spreads four bits without carries).
+    const std::uint64_t now = ((bits & 15) * 0x00204081ull & 0x01010101ull) | (((bits >> 4) * 0x00204081ull & 0x01010101ull) << 32);
+    if (now != before) {
+      for (std::size_t k = 0; k < valid; ++k) {
+        const std::uint8_t touches = bits >> k & 1u;
+        if (v.touching[p + k] == touches) continue;
+        v.touching[p + k] = touches;
+        v.in_touching[v.in_place[p + k]] = touches;
+        if (touches) v.history[p + k] = ContactHistory{};
+      }
+    }
+    for (std::uint32_t k = 0; k < 8; ++k) {
+      out[n] = static_cast<std::uint32_t>(p) + k;
+      n += bits >> k & 1u;
+    }
+  }
+  return n;
+}
+
+void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) {
+  const D d;
+  const auto* sphere = reinterpret_cast<const double*>(v.sphere);
+  const auto* motion = reinterpret_cast<const double*>(v.motion);
+  const auto* history = reinterpret_cast<const double*>(v.history);
+  for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
+    const double *is[kLanes], *js[kLanes], *im[kLanes], *jm[kLanes], *h[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const std::size_t p = pair[std::min(g + l, count - 1)], i = static_cast<std::size_t>(v.i[p]), j = static_cast<std::size_t>(v.j[p]);
+      is[l] = sphere + 4 * i, js[l] = sphere + 4 * j, im[l] = motion + 8 * i, jm[l] = motion + 8 * j, h[l] = history + 8 * p;
+    }
+    const Apart a = apart(v, is, js);
+    hn::Store(a.x, d, b.from_i_x + g), hn::Store(a.y, d, b.from_i_y + g), hn::Store(a.z, d, b.from_i_z + g);
+    hn::Store(a.ri, d, b.radius_i + g), hn::Store(a.rj, d, b.radius_j + g);
+    V i0, i1, j0, j1;
+    columns(im, 0, i0, i1), columns(jm, 0, j0, j1);
+    hn::Store(hn::Sub(j0, i0), d, b.dv_x + g), hn::Store(hn::Sub(j1, i1), d, b.dv_y + g);
+    columns(im, 2, i0, i1), columns(jm, 2, j0, j1);
+    hn::Store(hn::Sub(j0, i0), d, b.dv_z + g), hn::Store(i1, d, b.wi_x + g), hn::Store(j1, d, b.wj_x + g);
+    columns(im, 4, i0, i1), columns(jm, 4, j0, j1);
+    hn::Store(i0, d, b.wi_y + g), hn::Store(i1, d, b.wi_z + g), hn::Store(j0, d, b.wj_y + g), hn::Store(j1, d, b.wj_z + g);
+    columns(im, 6, i0, i1), columns(jm, 6, j0, j1);
+    hn::Store(i0, d, b.inverse_mass_i + g), hn::Store(j0, d, b.inverse_mass_j + g);
+    for (int c = 0; c < 8; c += 2) {
+      columns(h, c, i0, i1);
+      hn::Store(i0, d, b.history[c] + g), hn::Store(i1, d, b.history[c + 1] + g);
+    }
+  }
+}
+
+std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
+  const D d;
+  auto* history = reinterpret_cast<double*>(v.history);
+  auto* force = reinterpret_cast<double*>(v.force);
+  constexpr std::size_t kForce = sizeof(PairForce) / sizeof(double);
+  std::uint32_t deep = 0;
+  for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
+    double *h[kLanes], *f[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const std::size_t p = pair[std::min(g + l, count - 1)];
+      h[l] = history + 8 * p, f[l] = force + kForce * p;
+    }
+    for (int c = 0; c < 8; c += 2) put_columns(b.history[c] + g, b.history[c + 1] + g, h, c);
+    put_columns(b.force_x + g, b.force_y + g, f, 0);
+    put_columns(b.force_z + g, b.torque_i_x + g, f, 2);
+    put_columns(b.torque_i_y + g, b.torque_i_z + g, f, 4);
+    put_columns(b.torque_j_x + g, b.torque_j_y + g, f, 6);
+    for (int l = 0; l < kLanes; ++l) f[l][8] = b.torque_j_z[g + l];
+    const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
+    std::uint8_t mask[8] = {};
+    hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);
+    deep |= static_cast<std::uint32_t>(mask[0]) << g;
+  }
+  return deep;
+}
+}  // namespace venato::dem::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace venato::dem {
+HWY_EXPORT(find_touching);
+HWY_EXPORT(load_lanes);
+HWY_EXPORT(store_lanes);
+std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, std::uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(find_touching)(v, from, to, out);
+}
+void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) { HWY_DYNAMIC_DISPATCH(load_lanes)(v, pair, count, b); }
+std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
+  return HWY_DYNAMIC_DISPATCH(store_lanes)(v, pair, count, b, watch);
+}
+}  // namespace venato::dem
+#endif

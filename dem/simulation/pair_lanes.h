@@ -1,0 +1,44 @@
+#pragma once
+/// The vector code around the contact laws: which listed pairs touch, and their state in and out of lanes. Highway: one binary, the CPU's best
+/// instructions chosen at run time; every lane does the same operations on every CPU, so the bytes do not depend on it.
+#include <cstddef>
+#include <cstdint>
+
+#include "dem/contact/kernels/pair_batch.h"
+#include "dem/neighbours/cell_grid.h"
+#include "dem/neighbours/pair_list.h"
+
+namespace venato::dem {
+
+/// What a touching pair reads besides the spheres: one cache line.
+struct alignas(64) Motion {
+  Trio velocity, spin;
+  double inverse_mass;     ///< 0 = frozen
+  double inverse_inertia;  ///< 2.5 / (m R^2); 0 = frozen
+};
+
+/// Lists and grains as the vector code sees them.
+struct PairView {
+  const Sphere* sphere;
+  const Motion* motion;
+  const std::int32_t *i, *j, *in_place;
+  std::uint8_t *touching, *in_touching;
+  ContactHistory* history;
+  PairForce* force;
+  double length[3], inverse_length[3];  ///< of the periodic box; 0 = not periodic
+  bool periodic;
+};
+
+/// Largest number of pairs that find_touching() takes at once.
+inline constexpr std::size_t kScanChunk = 1024;
+
+/// Tests pairs from … to - 1 (at most kScanChunk), marks which touch, gives new contacts an empty history.
+/// \param out [kScanChunk + 8] the touching pairs, ascending \return their number
+std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, std::uint32_t* out);
+
+/// Fills the first `count` lanes (1 … kBatchWidth) of the batch with the touching pairs, and those up to the next multiple of 8 with the last of them.
+/// Materials (b.parameter) and pairs of two frozen grains are the caller's.
+void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b);
+/// Puts histories and forces back. \return lanes (one bit each) whose overlap is above `watch` radii of the smaller grain
+std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch);
+}  // namespace venato::dem
