@@ -66,12 +66,12 @@ void check_case(const Case& c) {
 
 void log_profile(const CaseRun& run) {
   const StepStatistics& s = run.sim.statistics();
-  const double all = s.seconds_list + s.seconds_contact + s.seconds_sum + s.seconds_integrate + s.seconds_walls;
+  const double all = s.seconds_list + s.seconds_scan + s.seconds_contact + s.seconds_integrate + s.seconds_walls;
   char line[256];
   std::snprintf(line, sizeof line,
-                "dem %s  profile: list %.1f %%  contact %.1f %%  sum and walls %.1f %%  integrate %.1f %%  wall motion %.1f %%  of %.2f s; %lld list "
+                "dem %s  profile: list %.1f %%  scan %.1f %%  contact %.1f %%  sum and integrate %.1f %%  walls %.1f %%  of %.2f s; %lld list "
                 "builds in %lld steps",
-                run.c.name.c_str(), 100 * s.seconds_list / all, 100 * s.seconds_contact / all, 100 * s.seconds_sum / all,
+                run.c.name.c_str(), 100 * s.seconds_list / all, 100 * s.seconds_scan / all, 100 * s.seconds_contact / all,
                 100 * s.seconds_integrate / all, 100 * s.seconds_walls / all, all, static_cast<long long>(s.list_builds),
                 static_cast<long long>(s.steps));
   run.context.log.info(line);

@@ -6,23 +6,43 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::int64_t kBlock = 256;
 constexpr double kRounding = 1 + 1e-9;  // of the reach: rounding of the paths never hides a pair
+constexpr std::uint32_t kSecond = 0x80000000u;
 }  // namespace
 
-void PairList::resize_pairs(std::size_t n) {
-  for (RawArray<std::int32_t>* a : {&i, &j}) {
-    a->resize_for_overwrite(n + kListPadding);
-    std::fill_n(a->data() + n, kListPadding, 0);
-  }
-  for (RawArray<std::uint8_t>* a : {&touching, &in_touching}) {
-    a->resize_for_overwrite(n + kListPadding);
-    std::memset(a->data(), 0, n + kListPadding);
-  }
-  history.resize_for_overwrite(n);
-  force.resize_for_overwrite(n);
-  in_place.resize_for_overwrite(n);
-  in_pair.resize_for_overwrite(n);
+void PairList::resize(std::size_t pairs, std::size_t entries) {
+  own.resize_for_overwrite(pairs + kListPadding);
+  std::fill_n(own.data() + pairs, kListPadding, std::uint16_t{0});
+  partner.resize_for_overwrite(pairs + kListPadding);
+  std::fill_n(partner.data() + pairs, kListPadding, 0);
+  touching.resize_for_overwrite(pairs + kListPadding);
+  std::memset(touching.data(), 0, pairs + kListPadding);
+  place.resize_for_overwrite(pairs);
+  history.resize_for_overwrite(pairs);
+  row.resize_for_overwrite(entries);
+  row_touching.resize_for_overwrite(entries + kListPadding);
+  std::memset(row_touching.data(), 0, entries + kListPadding);
+}
+
+void PairList::mark(std::size_t block, std::size_t pair, std::uint8_t touches) {
+  touching[pair] = touches;
+  const std::uint32_t in_block = static_cast<std::uint32_t>(pair - static_cast<std::size_t>(block_first[block]));
+  auto in_row = [&](std::size_t slot, std::uint32_t code) {
+    for (std::int32_t e = row_first[slot]; e < row_first[slot + 1]; ++e)
+      if (row[static_cast<std::size_t>(e)].code == code) row_touching[static_cast<std::size_t>(e)] = touches;
+  };
+  in_row(block_start(block) + own[pair], in_block);
+  const std::size_t second = static_cast<std::size_t>(partner[pair]);
+  if (block_of(second) == block) in_row(second, in_block | kSecond);
+}
+void PairList::start(std::size_t block, std::size_t pair, const ContactHistory& h) {
+  place[pair] = contacts[block].take();
+  history_of(block, pair) = h;
+  mark(block, pair, 1);
+}
+void PairList::end(std::size_t block, std::size_t pair) {
+  contacts[block].vacant.push_back(place[pair]);
+  mark(block, pair, 0);
 }
 
 void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out) {
@@ -44,7 +64,7 @@ void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vec
       const Anchor& b = in.anchor[sj];
       if (!meet_within(d[0], d[1], d[2], static_cast<double>(b.drift_x) - static_cast<double>(a.drift_x),
                        static_cast<double>(b.drift_y) - static_cast<double>(a.drift_y), static_cast<double>(b.drift_z) - static_cast<double>(a.drift_z),
-                       kRounding * (grown + t.r + static_cast<double>(b.allowance)), in.life_s))
+                       kRounding * (grown + (t.r + static_cast<double>(b.allowance))), in.life_s))
         continue;
       out.push_back({in.id[sj], j});
     }
@@ -63,40 +83,67 @@ void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vec
   }
 }
 
-/// Own pairs of slot s, with what the old list knows of them, and their entries among the partners' incoming ones.
-void PairListBuilder::fill_rows(PairList& list, const PairListInput& in, std::size_t s) const {
-  const PairList& old = spare_;
-  const std::size_t block = static_cast<std::size_t>(kBlock);
-  const std::span<const Neighbour> row = rows_[s / block].of(s % block);
-  const std::size_t was = static_cast<std::size_t>(in.old_slot[s]);
-  std::size_t from = 0, from_end = 0;
-  if (was < old.grain_count()) from = static_cast<std::size_t>(old.first[was]), from_end = static_cast<std::size_t>(old.first[was + 1]);
-  std::size_t p = static_cast<std::size_t>(list.first[s]);
-  for (const Neighbour& q : row.subspan(static_cast<std::size_t>(list.in_first[s + 1] - list.in_first[s]))) {
-    const std::size_t partner = static_cast<std::size_t>(q.slot);
-    list.i[p] = static_cast<std::int32_t>(s);
-    list.j[p] = q.slot;
-    const std::span<const Neighbour> theirs = rows_[partner / block].of(partner % block);
-    const auto found = std::lower_bound(theirs.begin(), theirs.end(), in.id[s], [](const Neighbour& x, std::int64_t id) { return x.id < id; });
-    const std::size_t place = static_cast<std::size_t>(list.in_first[partner] + (found - theirs.begin()));
-    list.in_place[p] = static_cast<std::int32_t>(place);
-    list.in_pair[place] = static_cast<std::int32_t>(p);
-    while (from < from_end && old.id[static_cast<std::size_t>(old.j[from])] < q.id) ++from;
-    if (from < from_end && old.touching[from] && old.id[static_cast<std::size_t>(old.j[from])] == q.id) {
-      list.touching[p] = list.in_touching[place] = 1;
-      list.history[p] = old.history[from];
-      list.force[p] = old.force[from];
+/// Pairs and rows of a block, then what the old list knows of their contacts.
+void PairListBuilder::fill_block(PairList& list, const PairListInput& in, std::size_t block) const {
+  const BlockRows& rows = rows_[block];
+  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
+  auto inside = [&](std::int32_t slot) { return static_cast<std::size_t>(slot) >= start && static_cast<std::size_t>(slot) < end; };
+  const std::size_t first = static_cast<std::size_t>(list.block_first[block]);
+  std::size_t p = first;
+  for (std::size_t s = start; s < end; ++s) {
+    std::size_t e = static_cast<std::size_t>(list.row_first[s]);
+    for (const Neighbour& q : rows.of(s - start)) {
+      if (!inside(q.slot) || q.id > in.id[s]) {
+        list.own[p] = static_cast<std::uint16_t>(s - start);
+        list.partner[p] = q.slot;
+        list.row[e].code = static_cast<std::uint32_t>(p - first);
+        ++p;
+      }
+      ++e;
     }
-    ++p;
+  }
+  for (std::size_t s = start; s < end; ++s) {
+    std::size_t e = static_cast<std::size_t>(list.row_first[s]);
+    for (const Neighbour& q : rows.of(s - start)) {
+      if (inside(q.slot) && q.id < in.id[s]) {  // the pair stands with its other grain
+        const std::size_t other = static_cast<std::size_t>(q.slot);
+        const std::span<const Neighbour> theirs = rows.of(other - start);
+        const auto found = std::lower_bound(theirs.begin(), theirs.end(), in.id[s], [](const Neighbour& x, std::int64_t id) { return x.id < id; });
+        list.row[e].code = list.row[static_cast<std::size_t>(list.row_first[other] + (found - theirs.begin()))].code | kSecond;
+      }
+      ++e;
+    }
+  }
+  list.contacts[block].used = 0;
+  list.contacts[block].vacant.clear();
+  for (std::size_t s = start; s < end; ++s) carry(list, in, block, s);
+}
+
+void PairListBuilder::carry(PairList& list, const PairListInput& in, std::size_t block, std::size_t s) const {
+  const PairList& old = spare_;
+  const std::size_t was = static_cast<std::size_t>(in.old_slot[s]);
+  if (was >= old.grain_count()) return;
+  std::size_t from = static_cast<std::size_t>(old.row_first[was]);
+  const std::size_t from_end = static_cast<std::size_t>(old.row_first[was + 1]), e0 = static_cast<std::size_t>(list.row_first[s]);
+  const std::span<const Neighbour> row = rows_[block].of(s - PairList::block_start(block));
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (list.row[e0 + k].second()) continue;
+    for (; from < from_end; ++from)
+      if (old.row_touching[from] && old.id[old.other(was, old.row[from])] >= row[k].id) break;
+    if (from == from_end) return;
+    if (old.id[old.other(was, old.row[from])] != row[k].id) continue;
+    const ContactHistory& h = old.history_of(PairList::block_of(was), old.pair_of(was, old.row[from]));
+    list.start(block, static_cast<std::size_t>(list.block_first[block]) + list.row[e0 + k].pair(), old.row[from].second() ? mirrored(h) : h);
   }
 }
 
 void PairListBuilder::rebuild(PairList& list, const PairListInput& in) {
-  const std::int64_t n = static_cast<std::int64_t>(in.spheres.size()), blocks = (n + kBlock - 1) / kBlock;
+  const std::int64_t n = static_cast<std::int64_t>(in.spheres.size()), blocks = (n + kGrainsPerBlock - 1) / kGrainsPerBlock;
   std::swap(list, spare_);
   rows_.resize(static_cast<std::size_t>(blocks));
-  list.first.assign(static_cast<std::size_t>(n) + 1, 0);
-  list.in_first.assign(static_cast<std::size_t>(n) + 1, 0);
+  list.row_first.assign(static_cast<std::size_t>(n) + 1, 0);
+  list.block_first.assign(static_cast<std::size_t>(blocks) + 1, 0);
+  list.contacts.resize(static_cast<std::size_t>(blocks));
   list.id.resize_for_overwrite(static_cast<std::size_t>(n));
   std::copy(in.id.begin(), in.id.end(), list.id.data());
   const int threads = in.threads;
@@ -105,24 +152,23 @@ void PairListBuilder::rebuild(PairList& list, const PairListInput& in) {
   for (std::int64_t b = 0; b < blocks; ++b) {
     BlockRows& out = rows_[static_cast<std::size_t>(b)];
     out.row.clear(), out.end.clear();
-    for (std::int64_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) {
+    std::int32_t pairs = 0;
+    const std::int64_t start = b * kGrainsPerBlock, end = std::min(n, start + kGrainsPerBlock);
+    for (std::int64_t i = start; i < end; ++i) {
       const std::size_t begin = out.row.size(), s = static_cast<std::size_t>(i);
       find_row(in, static_cast<std::int32_t>(i), out.row);
       out.end.push_back(static_cast<std::int32_t>(out.row.size()));
-      std::int32_t incoming = 0;
-      for (std::size_t k = begin; k < out.row.size(); ++k) incoming += out.row[k].id < in.id[s];
-      list.in_first[s + 1] = incoming;
-      list.first[s + 1] = static_cast<std::int32_t>(out.row.size() - begin) - incoming;
+      for (std::size_t k = begin; k < out.row.size(); ++k)
+        pairs += out.row[k].slot < start || out.row[k].slot >= end || out.row[k].id > in.id[s];
+      list.row_first[s + 1] = static_cast<std::int32_t>(out.row.size() - begin);
     }
+    list.block_first[static_cast<std::size_t>(b) + 1] = pairs;
   }
-  for (std::size_t k = 1; k < list.first.size(); ++k) {
-    list.first[k] += list.first[k - 1];
-    list.in_first[k] += list.in_first[k - 1];
-  }
-  list.resize_pairs(static_cast<std::size_t>(list.first.back()));
+  for (std::size_t k = 1; k < list.row_first.size(); ++k) list.row_first[k] += list.row_first[k - 1];
+  for (std::size_t k = 1; k < list.block_first.size(); ++k) list.block_first[k] += list.block_first[k - 1];
+  list.resize(list.pair_count(), static_cast<std::size_t>(list.row_first.back()));
 
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-  for (std::int64_t b = 0; b < blocks; ++b)
-    for (std::int64_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) fill_rows(list, in, static_cast<std::size_t>(i));
+  for (std::int64_t b = 0; b < blocks; ++b) fill_block(list, in, static_cast<std::size_t>(b));
 }
 }  // namespace venato::dem

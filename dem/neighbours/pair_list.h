@@ -1,10 +1,14 @@
 #pragma once
-/// Neighbour list with the contact histories. Every pair is owned by the grain with the lower id; rows stand in the spatial order of their owners and
-/// are sorted by the partner's id inside, so histories are carried from the old list to the new one by merging sorted rows.
+/// Neighbour lists by blocks of grains, with the contact histories.
 ///
-/// A grain's contacts in ascending order of the partner's id (the order in which forces are summed, whatever the list) are its incoming pairs, owned by
-/// partners with lower ids, then its own. Both carry one byte per pair that says whether they touch, side by side: a grain finds its touching pairs
-/// without looking at the others.
+/// A block (256 grains that are neighbours in space) holds every pair that one of its grains is in. A pair inside the block stands there once; a pair
+/// with a grain of another block stands in both, each with its own copy of the history (mirror images: the contact laws are exactly antisymmetric).
+/// So a block computes the forces on its grains from nothing but positions and velocities of its surroundings, no force ever goes through memory,
+/// and only the pairs across block borders (about a quarter) are computed twice.
+///
+/// Each grain has a row of its pairs, sorted by the partner's id: the order in which forces are summed, whatever the list. Beside every entry stands a
+/// byte that says whether the pair touches, so that a grain finds its contacts without looking at the others. Histories are kept for touching pairs only,
+/// densely from the start of the block's part of `history`.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,7 +20,9 @@
 
 namespace venato::dem {
 
-/// Force and torques of one pair on its grains; phase 2 sums them.
+inline constexpr std::int64_t kGrainsPerBlock = 256;
+
+/// Force and torques of one pair on its grains.
 struct PairForce {
   Trio on_i, torque_i, torque_j;
 };
@@ -24,24 +30,65 @@ struct PairForce {
 /// Vector loads may read this many entries beyond the end of a list.
 inline constexpr std::size_t kListPadding = 8;
 
+/// Entry of a row: the pair, counted from the block's first, and whether the grain is its second one.
+struct RowEntry {
+  std::uint32_t code;
+  std::uint32_t pair() const { return code & 0x7fffffffu; }
+  bool second() const { return code >> 31 != 0; }
+};
+
+/// History seen from the other grain.
+inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, h.contact_radius, -h.rolling, h.plastic}; }
+
+struct BlockContacts {
+  std::uint32_t used = 0;           ///< places taken so far; all below are in use or in `vacant`
+  std::vector<std::uint32_t> vacant;
+  std::uint32_t take() {
+    if (vacant.empty()) return used++;
+    const std::uint32_t k = vacant.back();
+    vacant.pop_back();
+    return k;
+  }
+};
+
 struct PairList {
-  std::vector<std::int32_t> first;       ///< [slot + 1] own pairs of each grain
-  RawArray<std::int32_t> i, j;           ///< [pair + padding] slots of owner and partner
-  RawArray<std::uint8_t> touching;       ///< [pair + padding] 1 or 0
-  RawArray<ContactHistory> history;      ///< [pair] defined while touching
-  RawArray<PairForce> force;             ///< [pair] defined while touching
-  std::vector<std::int32_t> in_first;    ///< [slot + 1] incoming pairs of each grain
-  RawArray<std::int32_t> in_place;       ///< [pair] where the pair stands among its partner's incoming ones
-  RawArray<std::int32_t> in_pair;        ///< [incoming] the pair
-  RawArray<std::uint8_t> in_touching;    ///< [incoming + padding] as touching
-  RawArray<std::int64_t> id;             ///< [slot]
-  std::size_t grain_count() const { return first.empty() ? 0 : first.size() - 1; }
-  std::size_t pair_count() const { return first.empty() ? 0 : static_cast<std::size_t>(first.back()); }
-  void resize_pairs(std::size_t n);
+  std::vector<std::int32_t> block_first;   ///< [block + 1] pairs of each block; also where its part of `history` starts
+  RawArray<std::uint16_t> own;             ///< [pair + padding] first grain, counted from the block's first
+  RawArray<std::int32_t> partner;          ///< [pair + padding] slot of the second grain
+  RawArray<std::uint8_t> touching;         ///< [pair + padding] 1 or 0
+  RawArray<std::uint32_t> place;           ///< [pair] of the history in the block's part, while touching
+  RawArray<ContactHistory> history;        ///< [block_first + place]
+  std::vector<BlockContacts> contacts;     ///< [block]
+  std::vector<std::int32_t> row_first;     ///< [slot + 1]
+  RawArray<RowEntry> row;                  ///< [entry] by ascending id of the partner
+  RawArray<std::uint8_t> row_touching;     ///< [entry + padding]
+  RawArray<std::int64_t> id;               ///< [slot]
+
+  std::size_t grain_count() const { return row_first.empty() ? 0 : row_first.size() - 1; }
+  std::size_t pair_count() const { return block_first.empty() ? 0 : static_cast<std::size_t>(block_first.back()); }
+  static std::size_t block_of(std::size_t slot) { return slot / static_cast<std::size_t>(kGrainsPerBlock); }
+  static std::size_t block_start(std::size_t block) { return block * static_cast<std::size_t>(kGrainsPerBlock); }
+  std::size_t pair_of(std::size_t slot, RowEntry e) const { return static_cast<std::size_t>(block_first[block_of(slot)]) + e.pair(); }
+  /// Slot of the other grain of a row's entry.
+  std::size_t other(std::size_t slot, RowEntry e) const {
+    const std::size_t p = pair_of(slot, e);
+    return e.second() ? block_start(block_of(slot)) + own[p] : static_cast<std::size_t>(partner[p]);
+  }
+  ContactHistory& history_of(std::size_t block, std::size_t pair) { return history[static_cast<std::size_t>(block_first[block]) + place[pair]]; }
+  const ContactHistory& history_of(std::size_t block, std::size_t pair) const {
+    return history[static_cast<std::size_t>(block_first[block]) + place[pair]];
+  }
+  /// Starts (with this history) or ends a contact: marks it in the pair, in the rows of its grains inside the block, and takes or frees its place.
+  void start(std::size_t block, std::size_t pair, const ContactHistory& h);
+  void end(std::size_t block, std::size_t pair);
+  void resize(std::size_t pairs, std::size_t entries);
+
+ private:
+  void mark(std::size_t block, std::size_t pair, std::uint8_t touches);
 };
 
 struct PairListInput {
-  std::span<const Sphere> spheres;         ///< new slot order, as all below
+  std::span<const Sphere> spheres;  ///< new slot order, as all below
   std::span<const Anchor> anchor;
   std::span<const double> reach;
   double life_s;
@@ -55,7 +102,7 @@ struct PairListInput {
 /// Makes lists; keeps its working memory from one to the next.
 class PairListBuilder {
  public:
-  /// Rebuilds `list`; histories and forces of touching pairs that are still near are carried over.
+  /// Rebuilds `list`; histories of touching pairs that are still near are carried over.
   void rebuild(PairList& list, const PairListInput& in);
 
  private:
@@ -63,7 +110,7 @@ class PairListBuilder {
     std::int64_t id;
     std::int32_t slot;
   };
-  /// Full rows (partners below and above) of a block of grains, one after the other.
+  /// Rows of a block of grains, one after the other.
   struct BlockRows {
     std::vector<Neighbour> row;
     std::vector<std::int32_t> end;
@@ -73,7 +120,8 @@ class PairListBuilder {
     }
   };
   static void find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out);
-  void fill_rows(PairList& list, const PairListInput& in, std::size_t s) const;
+  void fill_block(PairList& list, const PairListInput& in, std::size_t block) const;
+  void carry(PairList& list, const PairListInput& in, std::size_t block, std::size_t slot) const;
 
   PairList spare_;
   std::vector<BlockRows> rows_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -63,16 +64,17 @@ struct BlockBook {
   bool strayed = false;  ///< a grain left its path in the neighbour list by more than its allowance
   double speed2 = 0, overlap = 0;
   GrainId fastest = -1;
-  std::int64_t contacts = 0;
+  std::int64_t contact_sides = 0, wall_contacts = 0;  ///< a pair of grains has two sides
   ContactLoss loss;
   double wall_work = 0;
   std::vector<WallLoad> wall;
   std::vector<Crossing> crossing;
 };
 
-inline constexpr std::int64_t kGrainsPerBlock = 256;
+struct BlockScratch;  // dem/simulation/block_pass.h
 
 struct Simulation::Impl {
+  ~Impl();
   explicit Impl(const SimulationSetup& s);
 
   // set-up
@@ -83,12 +85,13 @@ struct Simulation::Impl {
   std::vector<Counter> counters;
 
   // state
-  std::vector<Sphere> sphere;
-  std::vector<Motion> motion;
+  std::vector<Sphere> sphere, next_sphere;  ///< next_*: what the running pass writes
+  std::vector<Motion> motion, next_motion;
   std::vector<Load> load;  ///< of contacts only, valid unless `pending`
   std::vector<GrainCard> card;
   std::vector<std::int32_t> slot_of_id;  ///< -1 = removed
   PairList pairs;
+  RawArray<PairForce> kept_force;  ///< [block_first + place] of the last finish_step() or evaluate()
   WallList wall_list;
   std::vector<WallModel> walls;
   std::vector<Vec3> wall_impulse;
@@ -107,17 +110,20 @@ struct Simulation::Impl {
   std::int64_t listed = 0;  ///< grains in the list; later slots are new
   std::int64_t step_of_build = 0;
   bool list_valid = false, forces_valid = false;
-  /// Contact forces of the present positions stand in their slots, not yet summed, and the velocities lack the second half kick: the next step does
-  /// both in the pass that moves the grains, unless somebody looks before (finish_step). Same bytes either way.
+  /// Forces of the present positions are still to come, and with them the second half kick: the next step does both in the pass that moves the grains
+  /// on, unless somebody looks before (finish_step). Same bytes either way.
   bool pending = false;
   bool one_material = true;  ///< all grains of one material: law parameters stay in the batch
   std::vector<Crossing> crossings;
   std::vector<BlockBook> books;
+  std::vector<std::unique_ptr<BlockScratch>> thread_scratch;  ///< [thread]
   StepStatistics stats;
   std::int64_t living = 0;  ///< grains not removed
 
   std::int64_t grains() const { return static_cast<std::int64_t>(sphere.size()); }
   std::int64_t blocks() const { return (grains() + kGrainsPerBlock - 1) / kGrainsPerBlock; }
+  std::size_t block_end(std::size_t b) const { return std::min(PairList::block_start(b + 1), sphere.size()); }
+  BlockScratch& my_scratch();  ///< of the calling thread of a team
   int team() const { return static_cast<int>(std::clamp<std::int64_t>(blocks(), 1, setup.threads)); }  ///< threads worth waking
   double time() const { return static_cast<double>(step_count) * setup.time_step_s; }
   std::size_t slot(GrainId id) const;  ///< \throws UsageError for an unknown id
@@ -126,17 +132,19 @@ struct Simulation::Impl {
   void step_once();
   void evaluate();
   void move_walls(double time_s);
-  void advance();      ///< sums of the last step and its second half kick (if pending), first half kick, drift
-  void finish_step();  ///< sums and second half kick now
+  void advance();      ///< forces of the last step and its second half kick (if pending), first half kick, drift
+  void finish_step();  ///< forces and second half kick now
   bool strayed() const;
   bool list_is_stale() const;
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
-  void contact_forces(double dt);  ///< of all pairs and wall contacts, into their slots
-  Load contact_load(std::size_t slot) const;  ///< sum of a grain's contacts in ascending order of the partners' ids, then walls
+  void keep_forces(double dt);  ///< forces of all contacts into kept_force, sums into load
+  void move_grain(std::size_t slot, const Load& load, bool second_half, BlockBook& book, double listed_for_s);
+  void note_crossings(std::size_t slot, const Sphere& from, const Sphere& to, const Motion& m, BlockBook& book) const;
   void kick(Motion& m, const Load& l, double half) const;
-  PairView pair_view();
-  void settle_books(double dt);
+  PairView pair_view(std::size_t block, PairForce* force);
+  void settle_contacts(double dt);  ///< books of block_forces()
+  void settle_motion();             ///< books of move_grain()
   template <class L>
   void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch);
 

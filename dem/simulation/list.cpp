@@ -73,7 +73,7 @@ void Simulation::Impl::rebuild_list() {
   for (std::int32_t& k : order) k = alive[static_cast<std::size_t>(k)];  // new slot -> old slot
   permute(sphere, order);
   permute(motion, order);
-  permute(load, order);
+  load.resize(order.size());
   permute(card, order);
   for (std::size_t s = 0; s < card.size(); ++s) slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s);
   one_material = std::all_of(card.begin(), card.end(), [&](const GrainCard& c) { return c.material == card.front().material; });

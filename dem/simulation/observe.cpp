@@ -25,16 +25,13 @@ std::vector<std::size_t> by_id(const Simulation::Impl& e) {
 
 bool alive(const Simulation::Impl& e, std::size_t s) { return !e.card[s].removed; }
 
-std::size_t partner(const Simulation::Impl& e, std::size_t p) { return static_cast<std::size_t>(e.pairs.j[p]); }
-
 /// Geometry of a touching pair at the present positions, enough for reading (no motion in it).
-ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::size_t p, Trio& to_j) {
-  const std::size_t j = partner(e, p);
+ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::size_t j) {
   const Sphere &a = e.sphere[i], &c = e.sphere[j];
   double d[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
   for (std::size_t k = 0; k < 3; ++k)
     if (e.box.length[k] > 0) d[k] -= std::round(d[k] / e.box.length[k]) * e.box.length[k];
-  to_j = {d[0], d[1], d[2]};
+  const Trio to_j{d[0], d[1], d[2]};
   ContactGeometry g{};
   g.normal = (1 / length(to_j)) * to_j;
   g.overlap = std::max(0.0, a.r + c.r - length(to_j));
@@ -42,12 +39,16 @@ ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::
   return g;
 }
 
+/// f(i, j, history, index into kept_force) for every touching pair, seen from the grain with the lower id.
 template <class F>
 void for_touching_pairs(const Simulation::Impl& e, const F& f) {
-  const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
-  for (std::size_t i = 0; i < listed; ++i)
-    for (std::size_t p = static_cast<std::size_t>(e.pairs.first[i]); p < static_cast<std::size_t>(e.pairs.first[i + 1]); ++p)
-      if (e.pairs.touching[p] && alive(e, i) && alive(e, partner(e, p))) f(i, p);
+  for (std::size_t b = 0; b + 1 < e.pairs.block_first.size(); ++b)
+    for (std::size_t p = static_cast<std::size_t>(e.pairs.block_first[b]); p < static_cast<std::size_t>(e.pairs.block_first[b + 1]); ++p) {
+      if (!e.pairs.touching[p]) continue;
+      const std::size_t i = PairList::block_start(b) + e.pairs.own[p], j = static_cast<std::size_t>(e.pairs.partner[p]);
+      if (e.card[i].id < e.card[j].id && alive(e, i) && alive(e, j))
+        f(i, j, e.pairs.history_of(b, p), static_cast<std::size_t>(e.pairs.block_first[b]) + e.pairs.place[p]);
+    }
 }
 template <class F>
 void for_wall_contacts(const Simulation::Impl& e, const F& f) {
@@ -89,16 +90,15 @@ std::vector<GrainState> Simulation::grains() const {
 }
 
 std::vector<ContactState> Simulation::contacts() const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   std::vector<ContactState> all;
-  for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
-    Trio to_j;
-    const ContactGeometry g = resting_geometry(e, i, p, to_j);
-    const PairForce& f = e.pairs.force[p];
-    const ContactHistory& h = e.pairs.history[p];
+  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, std::size_t force) {
+    const ContactGeometry g = resting_geometry(e, i, j);
+    const PairForce& f = e.kept_force[force];
     const Trio across_n = across(f.on_i, g.normal);
     const Trio rolling = f.torque_i - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.on_i);
-    all.push_back({e.card[i].id, e.card[partner(e, p)].id, -1, g.overlap, to_vec3(g.normal), -dot(f.on_i, g.normal), to_vec3(h.spring), to_vec3(across_n),
+    all.push_back({e.card[i].id, e.card[j].id, -1, g.overlap, to_vec3(g.normal), -dot(f.on_i, g.normal), to_vec3(h.spring), to_vec3(across_n),
                    to_vec3(h.rolling), to_vec3(rolling), to_vec3(f.on_i), to_vec3(f.torque_i)});
   });
   const std::size_t pair_count = all.size();
@@ -113,13 +113,20 @@ std::vector<ContactState> Simulation::contacts() const {
 }
 
 std::size_t Simulation::wall_count() const { return impl_->walls.size(); }
-WallLoad Simulation::wall_load(int wall) const { return impl_->wall_load.at(static_cast<std::size_t>(wall)); }
-Vec3 Simulation::wall_impulse_n_s(int wall) const { return impl_->wall_impulse.at(static_cast<std::size_t>(wall)); }
+WallLoad Simulation::wall_load(int wall) const {
+  impl_->finish_step();
+  return impl_->wall_load.at(static_cast<std::size_t>(wall));
+}
+Vec3 Simulation::wall_impulse_n_s(int wall) const {
+  impl_->finish_step();
+  return impl_->wall_impulse.at(static_cast<std::size_t>(wall));
+}
 Vec3 Simulation::wall_offset_m(int wall) const { return impl_->walls.at(static_cast<std::size_t>(wall)).pose.offset_m; }
 
 double Simulation::mean_contacts() const {
+  impl_->finish_step();
   double sides = 0;
-  for_touching_pairs(*impl_, [&](std::size_t, std::size_t) { sides += 2; });
+  for_touching_pairs(*impl_, [&](auto...) { sides += 2; });
   for_wall_contacts(*impl_, [&](std::size_t, const WallContact&) { sides += 1; });
   const std::size_t n = grain_count();
   return n > 0 ? sides / static_cast<double>(n) : 0;
@@ -143,10 +150,8 @@ EnergyBook Simulation::energy() const {
         auto add = [&](const ContactEnergy& c) {
           b.elastic_normal_j += c.elastic_normal, b.elastic_tangential_j += c.elastic_tangential, b.elastic_rolling_j += c.elastic_rolling;
         };
-        for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
-          Trio to_j;
-          const ContactGeometry g = resting_geometry(e, i, p, to_j);
-          add(table.of(e.card[i].material, e.card[partner(e, p)].material).energy(g, e.pairs.history[p]));
+        for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, std::size_t) {
+          add(table.of(e.card[i].material, e.card[j].material).energy(resting_geometry(e, i, j), h));
         });
         for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {
           ContactGeometry g{};
@@ -227,11 +232,8 @@ double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_s
     const Vec3 p = e.wrapped(Vec3(x.x, x.y, x.z));
     if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
     bool touches = e.wall_list.contact_count[s] > 0;
-    auto marked = [&](const RawArray<std::uint8_t>& mark, std::int32_t first, std::int32_t last) {
-      return std::find(mark.data() + first, mark.data() + last, std::uint8_t{1}) != mark.data() + last;
-    };
-    touches = touches || marked(e.pairs.touching, e.pairs.first[s], e.pairs.first[s + 1]) ||
-              marked(e.pairs.in_touching, e.pairs.in_first[s], e.pairs.in_first[s + 1]);
+    const std::uint8_t *mark = e.pairs.row_touching.data() + e.pairs.row_first[s], *end = e.pairs.row_touching.data() + e.pairs.row_first[s + 1];
+    touches = touches || std::find(mark, end, std::uint8_t{1}) != end;
     if (touches) top = x.z;
   }
   return top;
@@ -264,9 +266,9 @@ std::uint64_t Simulation::state_hash() const {
     h.add(e.motion[s].velocity), h.add(e.motion[s].spin), h.add(e.load[s].force), h.add(e.load[s].torque);
   }
   std::uint64_t contacts = 0;  // sum of hashes: does not depend on the order of slots
-  for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
+  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& pair, std::size_t) {
     Hash c;
-    c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.card[partner(e, p)].id)), c.add(e.pairs.history[p]);
+    c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.card[j].id)), c.add(pair);
     contacts += c.h;
   });
   for_wall_contacts(e, [&](std::size_t s, const WallContact& w) {

@@ -77,17 +77,18 @@ HWY_INLINE Apart apart(const PairView& v, const double* const* i, const double* 
   return p;
 }
 
-std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, std::uint32_t* out) {
+void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
   const D d;
   const auto* sphere = reinterpret_cast<const double*>(v.sphere);
   std::size_t n = 0;
+  changed.count = 0;
   for (std::size_t p = from; p < to; p += 8) {
     std::uint32_t bits = 0;
     for (int g = 0; g < 8; g += kLanes) {
       const double *i[kLanes], *j[kLanes];
       for (int l = 0; l < kLanes; ++l) {
-        i[l] = sphere + 4 * static_cast<std::size_t>(v.i[p + static_cast<std::size_t>(g + l)]);
-        j[l] = sphere + 4 * static_cast<std::size_t>(v.j[p + static_cast<std::size_t>(g + l)]);
+        const std::size_t q = p + static_cast<std::size_t>(g + l);
+        i[l] = sphere + 4 * v.first(q), j[l] = sphere + 4 * v.second(q);
       }
       const Apart a = apart(v, i, j);
       const V d2 = hn::Add(hn::Add(hn::Mul(a.x, a.x), hn::Mul(a.y, a.y)), hn::Mul(a.z, a.z)), reach = hn::Add(a.ri, a.rj);
@@ -97,25 +98,19 @@ std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, s
     }
     const std::size_t valid = std::min<std::size_t>(8, to - p);
     bits &= (1u << valid) - 1;
-    std::uint64_t before = 0;
-    std::memcpy(&before, v.touching + p, valid);
+    std::uint64_t before;
+    std::memcpy(&before, v.touching + p, 8);  // the list is padded
+    if (valid < 8) before &= (std::uint64_t{1} << (8 * valid)) - 1;
     // One byte per bit, bit k to byte k (two halves: a multiplication spreads four bits without carries).
-    const std::uint64_t now = ((bits & 15) * 0x00204081ull & 0x01010101ull) | (((bits >> 4) * 0x00204081ull & 0x01010101ull) << 32);
-    if (now != before) {
-      for (std::size_t k = 0; k < valid; ++k) {
-        const std::uint8_t touches = bits >> k & 1u;
-        if (v.touching[p + k] == touches) continue;
-        v.touching[p + k] = touches;
-        v.in_touching[v.in_place[p + k]] = touches;
-        if (touches) v.history[p + k] = ContactHistory{};
-      }
-    }
+    const std::uint64_t here = ((bits & 15) * 0x00204081ull & 0x01010101ull) | (((bits >> 4) * 0x00204081ull & 0x01010101ull) << 32);
+    for (std::uint64_t other = here ^ before; other != 0; other &= other - 1)
+      changed.pair[changed.count++] = static_cast<std::uint32_t>(p) + static_cast<std::uint32_t>(std::countr_zero(other)) / 8;
     for (std::uint32_t k = 0; k < 8; ++k) {
-      out[n] = static_cast<std::uint32_t>(p) + k;
+      now.pair[n] = static_cast<std::uint32_t>(p) + k;
       n += bits >> k & 1u;
     }
   }
-  return n;
+  now.count = n;
 }
 
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) {
@@ -126,8 +121,8 @@ void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBat
   for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
     const double *is[kLanes], *js[kLanes], *im[kLanes], *jm[kLanes], *h[kLanes];
     for (int l = 0; l < kLanes; ++l) {
-      const std::size_t p = pair[std::min(g + l, count - 1)], i = static_cast<std::size_t>(v.i[p]), j = static_cast<std::size_t>(v.j[p]);
-      is[l] = sphere + 4 * i, js[l] = sphere + 4 * j, im[l] = motion + 8 * i, jm[l] = motion + 8 * j, h[l] = history + 8 * p;
+      const std::size_t p = pair[std::min(g + l, count - 1)], i = v.first(p), j = v.second(p);
+      is[l] = sphere + 4 * i, js[l] = sphere + 4 * j, im[l] = motion + 8 * i, jm[l] = motion + 8 * j, h[l] = history + 8 * std::size_t{v.place[p]};
     }
     const Apart a = apart(v, is, js);
     hn::Store(a.x, d, b.from_i_x + g), hn::Store(a.y, d, b.from_i_y + g), hn::Store(a.z, d, b.from_i_z + g);
@@ -157,8 +152,8 @@ std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int coun
   for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
     double *h[kLanes], *f[kLanes];
     for (int l = 0; l < kLanes; ++l) {
-      const std::size_t p = pair[std::min(g + l, count - 1)];
-      h[l] = history + 8 * p, f[l] = force + kForce * p;
+      const std::size_t k = v.place[pair[std::min(g + l, count - 1)]];
+      h[l] = history + 8 * k, f[l] = force + kForce * k;
     }
     for (int c = 0; c < 8; c += 2) put_columns(b.history[c] + g, b.history[c + 1] + g, h, c);
     put_columns(b.force_x + g, b.force_y + g, f, 0);
@@ -181,8 +176,8 @@ namespace venato::dem {
 HWY_EXPORT(find_touching);
 HWY_EXPORT(load_lanes);
 HWY_EXPORT(store_lanes);
-std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, std::uint32_t* out) {
-  return HWY_DYNAMIC_DISPATCH(find_touching)(v, from, to, out);
+void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
+  HWY_DYNAMIC_DISPATCH(find_touching)(v, from, to, now, changed);
 }
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) { HWY_DYNAMIC_DISPATCH(load_lanes)(v, pair, count, b); }
 std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {

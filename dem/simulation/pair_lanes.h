@@ -17,24 +17,36 @@ struct alignas(64) Motion {
   double inverse_inertia;  ///< 2.5 / (m R^2); 0 = frozen
 };
 
-/// Lists and grains as the vector code sees them.
+/// One block's lists, and the grains, as the vector code sees them. Pairs count from the block's first.
 struct PairView {
   const Sphere* sphere;
   const Motion* motion;
-  const std::int32_t *i, *j, *in_place;
-  std::uint8_t *touching, *in_touching;
-  ContactHistory* history;
-  PairForce* force;
+  std::size_t block_start;  ///< slot
+  const std::uint16_t* own;
+  const std::int32_t* partner;
+  const std::uint8_t* touching;
+  const std::uint32_t* place;
+  ContactHistory* history;  ///< [place]
+  PairForce* force;         ///< [place]
   double length[3], inverse_length[3];  ///< of the periodic box; 0 = not periodic
   bool periodic;
+  std::size_t first(std::size_t pair) const { return block_start + own[pair]; }
+  std::size_t second(std::size_t pair) const { return static_cast<std::size_t>(partner[pair]); }
 };
 
 /// Largest number of pairs that find_touching() takes at once.
 inline constexpr std::size_t kScanChunk = 1024;
 
-/// Tests pairs from … to - 1 (at most kScanChunk), marks which touch, gives new contacts an empty history.
-/// \param out [kScanChunk + 8] the touching pairs, ascending \return their number
-std::size_t find_touching(const PairView& v, std::size_t from, std::size_t to, std::uint32_t* out);
+/// Room for a chunk of pairs; the vector code may write 8 entries more.
+struct PairChunk {
+  std::uint32_t pair[kScanChunk + 8];
+  std::size_t count = 0;
+};
+
+/// Tests pairs from … to - 1 (at most kScanChunk).
+/// \param now     those that touch, ascending
+/// \param changed those whose mark in v.touching says something else
+void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed);
 
 /// Fills the first `count` lanes (1 … kBatchWidth) of the batch with the touching pairs, and those up to the next multiple of 8 with the last of them.
 /// Materials (b.parameter) and pairs of two frozen grains are the caller's.

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "dem/contact/kernels/mixing.h"
-#include "dem/simulation/impl.h"
+#include "dem/simulation/block_pass.h"
 
 namespace venato::dem {
 namespace {
@@ -49,6 +49,8 @@ Simulation::Impl::Impl(const SimulationSetup& s) : setup(s) {
   }
   box = PeriodicBox::from(setup.box);
 }
+
+Simulation::Impl::~Impl() = default;
 
 std::size_t Simulation::Impl::slot(GrainId id) const {
   if (id < 0 || id >= static_cast<GrainId>(slot_of_id.size()) || slot_of_id[static_cast<std::size_t>(id)] < 0)

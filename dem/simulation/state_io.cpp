@@ -6,12 +6,14 @@ namespace venato::dem {
 namespace {
 constexpr std::uint64_t kMagic = 0x324d45444f4e4556ull;  // "VENODEM2"
 
+std::size_t first_pair(const Simulation::Impl& e, std::size_t block) { return static_cast<std::size_t>(e.pairs.block_first[block]); }
+
 /// Fields of the state in order; the same function writes and reads, so the two cannot drift apart.
 template <class Archive, class Impl>
 void exchange(Archive& a, Impl& e) {
   a.list(e.sphere), a.list(e.motion), a.list(e.load), a.list(e.card), a.list(e.slot_of_id);
-  a.list(e.pairs.first), a.raw(e.pairs.i), a.raw(e.pairs.j), a.raw(e.pairs.touching);
-  a.list(e.pairs.in_first), a.raw(e.pairs.in_place), a.raw(e.pairs.in_pair), a.raw(e.pairs.in_touching), a.raw(e.pairs.id);
+  a.list(e.pairs.block_first), a.raw(e.pairs.own), a.raw(e.pairs.partner), a.raw(e.pairs.touching);
+  a.list(e.pairs.row_first), a.raw(e.pairs.row), a.raw(e.pairs.row_touching), a.raw(e.pairs.id);
   a.list(e.wall_list.first), a.list(e.wall_list.candidate), a.list(e.wall_list.triangle);
   a.list(e.wall_list.contact_first), a.list(e.wall_list.contact_count), a.list(e.wall_list.contact);
   a.list(e.anchor), a.list(e.reach), a.value(e.list_life_s), a.value(e.farthest_m), a.value(e.listed), a.value(e.list_valid);
@@ -28,8 +30,9 @@ std::vector<std::uint8_t> Simulation::save_state() const {
   w.value(kMagic);
   w.value(static_cast<std::uint64_t>(e.walls.size()));
   exchange(w, e);
-  for (std::size_t p = 0; p < e.pairs.pair_count(); ++p)
-    if (e.pairs.touching[p]) w.value(e.pairs.history[p]), w.value(e.pairs.force[p]);
+  for (std::size_t b = 0; b + 1 < e.pairs.block_first.size(); ++b)
+    for (std::size_t p = first_pair(e, b); p < first_pair(e, b + 1); ++p)
+      if (e.pairs.touching[p]) w.value(e.pairs.history_of(b, p)), w.value(e.kept_force[first_pair(e, b) + e.pairs.place[p]]);
   for (std::size_t k = 0; k < e.walls.size(); ++k) {
     w.value(e.wall_impulse[k]), w.value(e.wall_load[k]);
     w.value(e.walls[k].pose), w.value(e.walls[k].pose_before), w.value(e.walls[k].pose_at_build), w.value(e.walls[k].step_velocity_m_s);
@@ -45,10 +48,16 @@ void Simulation::load_state(std::span<const std::uint8_t> bytes) {
   r.value(magic), r.value(walls);
   if (magic != kMagic || walls != e.walls.size()) throw WorkError("DEM state: the saved state belongs to another program version or another case");
   exchange(r, e);
+  e.pairs.place.resize_for_overwrite(e.pairs.pair_count());
   e.pairs.history.resize_for_overwrite(e.pairs.pair_count());
-  e.pairs.force.resize_for_overwrite(e.pairs.pair_count());
-  for (std::size_t p = 0; p < e.pairs.pair_count(); ++p)
-    if (e.pairs.touching[p]) r.value(e.pairs.history[p]), r.value(e.pairs.force[p]);
+  e.kept_force.resize_for_overwrite(e.pairs.pair_count());
+  e.pairs.contacts.assign(e.pairs.block_first.empty() ? 0 : e.pairs.block_first.size() - 1, {});
+  for (std::size_t b = 0; b < e.pairs.contacts.size(); ++b)
+    for (std::size_t p = first_pair(e, b); p < first_pair(e, b + 1); ++p) {
+      if (!e.pairs.touching[p]) continue;
+      e.pairs.place[p] = e.pairs.contacts[b].take();
+      r.value(e.pairs.history_of(b, p)), r.value(e.kept_force[first_pair(e, b) + e.pairs.place[p]]);
+    }
   for (std::size_t k = 0; k < e.walls.size(); ++k) {
     r.value(e.wall_impulse[k]), r.value(e.wall_load[k]);
     r.value(e.walls[k].pose), r.value(e.walls[k].pose_before), r.value(e.walls[k].pose_at_build), r.value(e.walls[k].step_velocity_m_s);

@@ -1,24 +1,13 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
-#include "dem/simulation/impl.h"
+#include "dem/simulation/block_pass.h"
 
 namespace venato::dem {
 namespace {
-/// f(k) for every k in [first, last) whose byte is 1, without looking at the others.
-template <class F>
-inline void for_marked(const std::uint8_t* mark, std::int32_t first, std::int32_t last, const F& f) {
-  for (std::int32_t k = first; k < last; k += 8) {
-    std::uint64_t word;
-    std::memcpy(&word, mark + k, 8);  // the lists are padded
-    if (last - k < 8) word &= (std::uint64_t{1} << (8 * (last - k))) - 1;
-    for (; word != 0; word &= word - 1) f(static_cast<std::size_t>(k) + static_cast<std::size_t>(std::countr_zero(word)) / 8);
-  }
-}
+constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
 
 class Stopwatch {
  public:
@@ -35,18 +24,27 @@ void timed(double& sum, const F& f) {
   const Stopwatch watch(sum);
   f();
 }
+
+/// The seconds of a pass, shared out as the sampled clocks say.
+void share_out(StepStatistics& stats, double seconds, const std::vector<PassClock>& clocks) {
+  PassClock all;
+  for (const PassClock& c : clocks) all.scan += c.scan, all.contact += c.contact, all.walls += c.walls, all.integrate += c.integrate;
+  const double sum = all.scan + all.contact + all.walls + all.integrate;
+  if (!(sum > 0)) return;
+  stats.seconds_scan += seconds * all.scan / sum, stats.seconds_contact += seconds * all.contact / sum;
+  stats.seconds_walls += seconds * all.walls / sum, stats.seconds_integrate += seconds * all.integrate / sum;
+}
 }  // namespace
 
+/// The whole step. Velocity Verlet is kick, drift, forces, kick; forces and the second kick wait for the next step's pass over the grains.
 void Simulation::Impl::step_once() {
   if (!forces_valid) evaluate();
-  const double dt = setup.time_step_s;
+  advance();
   ++step_count;
   timed(stats.seconds_walls, [&] { move_walls(time()); });
-  timed(stats.seconds_integrate, [&] { advance(); });
+  settle_motion();
   if (list_is_stale()) timed(stats.seconds_list, [&] { rebuild_list(); });
-  timed(stats.seconds_contact, [&] { contact_forces(dt); });
   pending = true;
-  settle_books(dt);
   ++stats.steps;
 }
 
@@ -54,11 +52,16 @@ void Simulation::Impl::step_once() {
 void Simulation::Impl::evaluate() {
   finish_step();
   if (!list_valid) rebuild_list();
-  for (BlockBook& b : books) b = BlockBook();
-  contact_forces(0);
-  for (std::size_t s = 0; s < sphere.size(); ++s) load[s] = contact_load(s);
-  settle_books(0);
+  keep_forces(0);
   forces_valid = true;
+}
+
+void Simulation::Impl::finish_step() {
+  if (!pending) return;
+  keep_forces(setup.time_step_s);
+  const double half = 0.5 * setup.time_step_s;
+  for (std::size_t s = 0; s < sphere.size(); ++s) kick(motion[s], load[s], half);
+  pending = false;
 }
 
 void Simulation::Impl::move_walls(double t) {
@@ -69,21 +72,35 @@ void Simulation::Impl::move_walls(double t) {
   }
 }
 
-Load Simulation::Impl::contact_load(std::size_t s) const {
-  Load sum;
-  for_marked(pairs.in_touching.data(), pairs.in_first[s], pairs.in_first[s + 1], [&](std::size_t k) {
-    const PairForce& f = pairs.force[static_cast<std::size_t>(pairs.in_pair[k])];
-    sum.force = sum.force - f.on_i, sum.torque = sum.torque + f.torque_j;
-  });
-  for_marked(pairs.touching.data(), pairs.first[s], pairs.first[s + 1], [&](std::size_t p) {
-    const PairForce& f = pairs.force[p];
-    sum.force = sum.force + f.on_i, sum.torque = sum.torque + f.torque_i;
-  });
-  for (std::size_t k = 0; k < wall_list.contact_count[s]; ++k) {
-    const WallContact& w = wall_list.contact[static_cast<std::size_t>(wall_list.contact_first[s]) + k];
-    sum.force = sum.force + w.on_grain, sum.torque = sum.torque + w.torque_on_grain;
-  }
-  return sum;
+BlockScratch& Simulation::Impl::my_scratch() {
+  std::unique_ptr<BlockScratch>& mine = thread_scratch[static_cast<std::size_t>(omp_get_thread_num())];
+  if (!mine) mine = std::make_unique<BlockScratch>();
+  prepare_batch(*this, mine->batch);
+  return *mine;
+}
+
+void Simulation::Impl::keep_forces(double dt) {
+  const std::int64_t nb = blocks();
+  books.resize(static_cast<std::size_t>(nb));
+  thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
+  kept_force.resize_for_overwrite(pairs.pair_count());
+  load.resize(sphere.size());
+  std::visit(
+      [&](const auto& table) {
+#pragma omp parallel num_threads(team()) if (team() > 1)
+        {
+          BlockScratch& mine = my_scratch();
+#pragma omp for schedule(dynamic, 1)
+          for (std::int64_t i = 0; i < nb; ++i) {
+            const std::size_t b = static_cast<std::size_t>(i);
+            PairForce* force = kept_force.data() + pairs.block_first[b];
+            block_forces(*this, table, dt, b, mine, force, nullptr);
+            for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = contact_load(*this, s, force);
+          }
+        }
+      },
+      laws);
+  settle_contacts(dt);
 }
 
 inline void Simulation::Impl::kick(Motion& m, const Load& l, double half) const {
@@ -93,60 +110,77 @@ inline void Simulation::Impl::kick(Motion& m, const Load& l, double half) const 
   m.spin = m.spin + (half * m.inverse_inertia) * l.torque;
 }
 
-void Simulation::Impl::finish_step() {
-  if (!pending) return;
-  const double half = 0.5 * setup.time_step_s;
-  const std::int64_t n = grains();
-#pragma omp parallel for schedule(static) num_threads(team()) if (team() > 1)
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::size_t s = static_cast<std::size_t>(i);
-    load[s] = contact_load(s);
-    kick(motion[s], load[s], half);
+void Simulation::Impl::note_crossings(std::size_t s, const Sphere& from, const Sphere& to, const Motion& m, BlockBook& book) const {
+  const double old[3] = {from.x, from.y, from.z}, now[3] = {to.x, to.y, to.z};
+  for (std::size_t c = 0; c < counters.size(); ++c) {
+    const Counter& k = counters[c];
+    const double a = old[k.axis] - k.position_m, z = now[k.axis] - k.position_m;
+    if (k.sign > 0 ? !(a < 0 && z >= 0) : !(a > 0 && z <= 0)) continue;
+    const double part = a / (a - z);
+    Vec3 at(old[0] + part * (now[0] - old[0]), old[1] + part * (now[1] - old[1]), old[2] + part * (now[2] - old[2]));
+    const Vec3 inside = wrapped(at);
+    if ((inside.array() < k.window_low.array()).any() || (inside.array() > k.window_high.array()).any()) continue;
+    for (int d = 0; d < 3; ++d) at[d] += card[s].image[static_cast<std::size_t>(d)] * box.length[static_cast<std::size_t>(d)];
+    book.crossing.push_back({static_cast<int>(c), time() + part * setup.time_step_s, part, card[s].id, at, to_vec3(m.velocity), to_vec3(m.spin)});
   }
-  pending = false;
+}
+
+/// Second half kick of the last step (if it is still due), first half kick of this one, drift.
+inline void Simulation::Impl::move_grain(std::size_t s, const Load& l, bool second_half, BlockBook& book, double listed_for_s) {
+  const double dt = setup.time_step_s, half = 0.5 * dt;
+  const Sphere& from = sphere[s];
+  Motion m = motion[s];
+  if (second_half) kick(m, l, half);
+  kick(m, l, half);
+  const Sphere to{from.x + snapped(0, m.velocity.x * dt), from.y + snapped(1, m.velocity.y * dt), from.z + snapped(2, m.velocity.z * dt), from.r};
+  if (s < anchor.size()) {
+    const double allowance = static_cast<double>(anchor[s].allowance);
+    book.strayed |= !(anchor[s].strayed2(to.x, to.y, to.z, listed_for_s) <= allowance * allowance);  // NaN strays
+  }
+  const double speed2 = dot(m.velocity, m.velocity);
+  if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = card[s].id;  // NaN wins
+  if (!counters.empty()) note_crossings(s, from, to, m, book);
+  next_sphere[s] = to;
+  next_motion[s] = m;
 }
 
 void Simulation::Impl::advance() {
-  const double dt = setup.time_step_s, half = 0.5 * dt, start = time() - dt;
-  const double listed_for = static_cast<double>(step_count - step_of_build) * dt;
-  const std::int64_t n = grains(), nb = blocks();
-  const std::size_t anchored = list_valid ? anchor.size() : 0;
+  const double began = omp_get_wtime(), listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
+  const std::int64_t nb = blocks();
   books.resize(static_cast<std::size_t>(nb));
-#pragma omp parallel for schedule(static) num_threads(team()) if (team() > 1)
-  for (std::int64_t b = 0; b < nb; ++b) {
-    BlockBook& book = books[static_cast<std::size_t>(b)];
-    book.strayed = false, book.speed2 = book.overlap = 0, book.fastest = -1, book.contacts = 0, book.loss = {}, book.wall_work = 0;
-    for (std::int64_t i = b * kGrainsPerBlock; i < std::min(n, (b + 1) * kGrainsPerBlock); ++i) {
-      const std::size_t s = static_cast<std::size_t>(i);
-      Motion& m = motion[s];
-      Sphere& x = sphere[s];
-      const Load sum = pending ? contact_load(s) : load[s];
-      if (pending) kick(m, sum, half);
-      kick(m, sum, half);
-      const double old[3] = {x.x, x.y, x.z};
-      x.x += snapped(0, m.velocity.x * dt);
-      x.y += snapped(1, m.velocity.y * dt);
-      x.z += snapped(2, m.velocity.z * dt);
-      if (s < anchored) {
-        const double allowance = static_cast<double>(anchor[s].allowance);
-        book.strayed |= !(anchor[s].strayed2(x.x, x.y, x.z, listed_for) <= allowance * allowance);  // NaN strays
-      }
-      const double speed2 = dot(m.velocity, m.velocity);
-      if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = card[s].id;  // NaN wins
-      const double now[3] = {x.x, x.y, x.z};
-      for (std::size_t c = 0; c < counters.size(); ++c) {
-        const Counter& k = counters[c];
-        const double a = old[k.axis] - k.position_m, z = now[k.axis] - k.position_m;
-        if (k.sign > 0 ? !(a < 0 && z >= 0) : !(a > 0 && z <= 0)) continue;
-        const double part = a / (a - z);
-        Vec3 at(old[0] + part * (now[0] - old[0]), old[1] + part * (now[1] - old[1]), old[2] + part * (now[2] - old[2]));
-        const Vec3 inside = wrapped(at);
-        if ((inside.array() < k.window_low.array()).any() || (inside.array() > k.window_high.array()).any()) continue;
-        for (int d = 0; d < 3; ++d) at[d] += card[s].image[static_cast<std::size_t>(d)] * box.length[static_cast<std::size_t>(d)];
-        book.crossing.push_back({static_cast<int>(c), start + part * dt, part, card[s].id, at, to_vec3(m.velocity), to_vec3(m.spin)});
-      }
-    }
-  }
+  thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
+  next_sphere.resize(sphere.size());
+  next_motion.resize(sphere.size());
+  std::vector<PassClock> clocks(thread_scratch.size());
+  std::visit(
+      [&](const auto& table) {
+#pragma omp parallel num_threads(team()) if (team() > 1)
+        {
+          BlockScratch& mine = my_scratch();
+          PassClock& clock = clocks[static_cast<std::size_t>(omp_get_thread_num())];
+#pragma omp for schedule(dynamic, 1)
+          for (std::int64_t i = 0; i < nb; ++i) {
+            const std::size_t b = static_cast<std::size_t>(i), start = PairList::block_start(b), end = block_end(b);
+            BlockBook& book = books[b];
+            book.strayed = false, book.speed2 = 0, book.fastest = -1;
+            const bool clocked = i % kClockedBlocks == 0;
+            if (pending) {
+              const std::size_t count = static_cast<std::size_t>(pairs.block_first[b + 1] - pairs.block_first[b]);
+              if (mine.force.size() < count) mine.force.resize(count);
+              block_forces(*this, table, setup.time_step_s, b, mine, mine.force.data(), clocked ? &clock : nullptr);
+            }
+            const double t = clocked ? omp_get_wtime() : 0;
+            for (std::size_t s = start; s < end; ++s)
+              move_grain(s, pending ? contact_load(*this, s, mine.force.data()) : load[s], pending, book, listed_for);
+            if (clocked) clock.integrate += omp_get_wtime() - t;
+          }
+        }
+      },
+      laws);
+  if (pending) settle_contacts(setup.time_step_s);
+  sphere.swap(next_sphere);
+  motion.swap(next_motion);
+  share_out(stats, omp_get_wtime() - began, clocks);
 }
 
 bool Simulation::Impl::strayed() const {
@@ -161,27 +195,33 @@ bool Simulation::Impl::list_is_stale() const {
   return false;
 }
 
-void Simulation::Impl::settle_books(double dt) {
+void Simulation::Impl::settle_contacts(double dt) {
   std::fill(wall_load.begin(), wall_load.end(), WallLoad());
-  double speed2 = 0;
-  GrainId fastest = -1;
-  stats.contact_count = 0;
+  double sides = 0, on_walls = 0;
   for (BlockBook& b : books) {
     for (std::size_t w = 0; w < b.wall.size(); ++w) {
       wall_load[w].force_n += b.wall[w].force_n;
       wall_load[w].torque_n_m += b.wall[w].torque_n_m;
     }
-    if (!(b.speed2 <= speed2)) speed2 = b.speed2, fastest = b.fastest;
     stats.max_overlap = std::max(stats.max_overlap, b.overlap);
-    stats.contact_count += static_cast<double>(b.contacts);
+    sides += static_cast<double>(b.contact_sides), on_walls += static_cast<double>(b.wall_contacts);
     lost.normal += b.loss.normal, lost.tangential_damping += b.loss.tangential_damping;
     lost.sliding += b.loss.sliding, lost.rolling += b.loss.rolling;
     wall_work += b.wall_work;
-    crossings.insert(crossings.end(), b.crossing.begin(), b.crossing.end());
-    b.crossing.clear();
   }
   for (std::size_t w = 0; w < walls.size(); ++w) wall_impulse[w] += dt * wall_load[w].force_n;
   stats.pair_count = static_cast<double>(pairs.pair_count());
+  stats.contact_count = 0.5 * sides + on_walls;
+}
+
+void Simulation::Impl::settle_motion() {
+  double speed2 = 0;
+  GrainId fastest = -1;
+  for (BlockBook& b : books) {
+    if (!(b.speed2 <= speed2)) speed2 = b.speed2, fastest = b.fastest;
+    crossings.insert(crossings.end(), b.crossing.begin(), b.crossing.end());
+    b.crossing.clear();
+  }
   const double speed = std::sqrt(speed2);
   if (!(speed <= stats.max_speed_m_s) && fastest >= 0) stats.max_speed_m_s = speed, stats.fastest = fastest;
 }

@@ -73,7 +73,7 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
       book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
           (at - w.wall.motion.rotation_centre - w.pose.offset_m).cross(on_wall) - to_vec3(now.force.rolling);
       book.overlap = std::max(book.overlap, now.overlap / x.r);
-      ++book.contacts;
+      ++book.wall_contacts;
       if (setup.track_energy && dt > 0) {
         const ContactLoss loss = law.loss(g, earlier, now.history, now.force, dt);
         book.loss.normal += loss.normal, book.loss.tangential_damping += loss.tangential_damping;
