@@ -11,6 +11,8 @@
 
 namespace venato::dem {
 namespace {
+constexpr std::size_t kLinesPerBatch = 100;
+
 template <class L>
 void set_law(PairBatch& batch, int l, const L& law) {
   static_assert(sizeof(L) == sizeof(double) * L::parameter_count && L::parameter_count <= kMaxParameters);
@@ -34,6 +36,15 @@ void account(const PairView& v, const PairBatch& batch, const std::uint32_t* pai
     const ContactLoss loss = law.loss(f.g, before, after, force, dt);
     book.loss.normal += loss.normal, book.loss.tangential_damping += loss.tangential_damping;
     book.loss.sliding += loss.sliding, book.loss.rolling += loss.rolling;
+  }
+}
+
+/// What the batch of contacts from `from` on will read that the scan has not brought near.
+void fetch_ahead(const PairView& v, const PairChunk& touching, std::size_t from) {
+  for (std::size_t k = from; k < std::min(touching.count, from + kBatchWidth); ++k) {
+    const std::size_t p = touching.pair[k];
+    __builtin_prefetch(v.motion + v.second(p));
+    __builtin_prefetch(v.history + v.place[p], 1);
   }
 }
 
@@ -99,9 +110,13 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
         list.start(b, p, ContactHistory{});
     }
     lap(&PassClock::scan);
-    for (std::size_t k = 0; k < scratch.touching.count; k += kBatchWidth)
+    fetch_ahead(v, scratch.touching, 0);
+    for (std::size_t k = 0; k < scratch.touching.count; k += kBatchWidth) {
+      fetch_ahead(v, scratch.touching, k + kBatchWidth);
+      scratch.ahead.some(kLinesPerBatch);
       evaluate(sim, table, v, scratch.touching.pair + k, static_cast<int>(std::min<std::size_t>(kBatchWidth, scratch.touching.count - k)), dt,
                scratch.batch, book);
+    }
     lap(&PassClock::contact);
   }
   book.wall.assign(sim.walls.size(), WallLoad());

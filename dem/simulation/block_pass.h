@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "dem/simulation/fetch_ahead.h"
 #include "dem/simulation/impl.h"
 
 namespace venato::dem {
@@ -15,6 +16,7 @@ struct BlockScratch {
   PairChunk touching, changed;
   std::vector<PairForce> force;
   std::vector<WallContact> wall;
+  FetchAhead ahead;
 };
 
 /// Wall clock of the parts of a pass, sampled on some of the blocks: what --profile shows.

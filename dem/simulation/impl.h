@@ -71,6 +71,7 @@ struct BlockBook {
   std::vector<Crossing> crossing;
 };
 
+class FetchAhead;
 struct BlockScratch;  // dem/simulation/block_pass.h
 
 struct Simulation::Impl {
@@ -142,6 +143,7 @@ struct Simulation::Impl {
   void move_grain(std::size_t slot, const Load& load, bool second_half, BlockBook& book, double listed_for_s);
   void note_crossings(std::size_t slot, const Sphere& from, const Sphere& to, const Motion& m, BlockBook& book) const;
   void kick(Motion& m, const Load& l, double half) const;
+  void fetch_block(FetchAhead& ahead, std::size_t block) const;
   PairView pair_view(std::size_t block, PairForce* force);
   void settle_contacts(double dt);  ///< books of block_forces()
   void settle_motion();             ///< books of move_grain()

@@ -77,6 +77,8 @@ HWY_INLINE Apart apart(const PairView& v, const double* const* i, const double* 
   return p;
 }
 
+constexpr std::size_t kFetch = 48;  // pairs
+
 void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
   const D d;
   const auto* sphere = reinterpret_cast<const double*>(v.sphere);
@@ -84,6 +86,7 @@ void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChun
   changed.count = 0;
   for (std::size_t p = from; p < to; p += 8) {
     std::uint32_t bits = 0;
+    for (std::size_t k = p + kFetch; k < p + kFetch + 8; ++k) __builtin_prefetch(v.sphere + v.second(std::min(k, to - 1)));
     for (int g = 0; g < 8; g += kLanes) {
       const double *i[kLanes], *j[kLanes];
       for (int l = 0; l < kLanes; ++l) {

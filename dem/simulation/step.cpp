@@ -8,6 +8,8 @@
 namespace venato::dem {
 namespace {
 constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
+constexpr std::size_t kFetchFrom = 4000;      // grains: smaller systems live in the caches anyway
+constexpr std::size_t kLinesPerGrains = 8, kGrainsPerFetch = 4;
 
 class Stopwatch {
  public:
@@ -144,6 +146,24 @@ inline void Simulation::Impl::move_grain(std::size_t s, const Load& l, bool seco
   next_motion[s] = m;
 }
 
+/// What the pass over `block` will read and write, and the lists of the one after it (they say which grains to fetch for that one).
+void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
+  ahead.restart();
+  const std::size_t nb = static_cast<std::size_t>(blocks());
+  if (sphere.size() < kFetchFrom || block >= nb) return;
+  const std::size_t s = PairList::block_start(block), n = block_end(block) - s, first = static_cast<std::size_t>(pairs.block_first[block]);
+  const std::size_t count = static_cast<std::size_t>(pairs.block_first[block + 1]) - first;
+  ahead.add(sphere.data() + s, n), ahead.add(motion.data() + s, n);
+  ahead.add(pairs.own.data() + first, count), ahead.add(pairs.touching.data() + first, count), ahead.add(pairs.place.data() + first, count);
+  ahead.add(pairs.history.data() + first, pairs.contacts[block].used);
+  const std::size_t row = static_cast<std::size_t>(pairs.row_first[s]), row_end = static_cast<std::size_t>(pairs.row_first[s + n]);
+  ahead.add(pairs.row_touching.data() + row, row_end - row), ahead.add(pairs.row.data() + row, row_end - row);
+  ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
+  ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
+  if (block + 1 < nb)
+    ahead.add(pairs.partner.data() + pairs.block_first[block + 1], static_cast<std::size_t>(pairs.block_first[block + 2] - pairs.block_first[block + 1]));
+}
+
 void Simulation::Impl::advance() {
   const double began = omp_get_wtime(), listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
   const std::int64_t nb = blocks();
@@ -152,26 +172,31 @@ void Simulation::Impl::advance() {
   next_sphere.resize(sphere.size());
   next_motion.resize(sphere.size());
   std::vector<PassClock> clocks(thread_scratch.size());
+  const std::int64_t chunk = std::max<std::int64_t>(1, nb / (8 * team()));  // neighbouring blocks share what they read
   std::visit(
       [&](const auto& table) {
 #pragma omp parallel num_threads(team()) if (team() > 1)
         {
           BlockScratch& mine = my_scratch();
           PassClock& clock = clocks[static_cast<std::size_t>(omp_get_thread_num())];
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(dynamic, chunk)
           for (std::int64_t i = 0; i < nb; ++i) {
             const std::size_t b = static_cast<std::size_t>(i), start = PairList::block_start(b), end = block_end(b);
             BlockBook& book = books[b];
             book.strayed = false, book.speed2 = 0, book.fastest = -1;
             const bool clocked = i % kClockedBlocks == 0;
+            if (pending) fetch_block(mine.ahead, b + 1);
             if (pending) {
               const std::size_t count = static_cast<std::size_t>(pairs.block_first[b + 1] - pairs.block_first[b]);
               if (mine.force.size() < count) mine.force.resize(count);
               block_forces(*this, table, setup.time_step_s, b, mine, mine.force.data(), clocked ? &clock : nullptr);
             }
             const double t = clocked ? omp_get_wtime() : 0;
-            for (std::size_t s = start; s < end; ++s)
+            for (std::size_t s = start; s < end; ++s) {
+              if (s % kGrainsPerFetch == 0) mine.ahead.some(kLinesPerGrains);
               move_grain(s, pending ? contact_load(*this, s, mine.force.data()) : load[s], pending, book, listed_for);
+            }
+            mine.ahead.rest();
             if (clocked) clock.integrate += omp_get_wtime() - t;
           }
         }
