@@ -22,11 +22,6 @@ namespace venato::dem {
 
 inline constexpr std::int64_t kGrainsPerBlock = 256;
 
-/// Force and torques of one pair on its grains.
-struct PairForce {
-  Trio on_i, torque_i, torque_j;
-};
-
 /// Vector loads may read this many entries beyond the end of a list.
 inline constexpr std::size_t kListPadding = 8;
 

@@ -88,12 +88,13 @@ PairView Simulation::Impl::pair_view(std::size_t b, PairForce* force) {
 }
 
 template <class L>
-void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, PairForce* force, PassClock* clock) {
-  const PairView v = sim.pair_view(b, force);
+void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, PassClock* clock) {
   PairList& list = sim.pairs;
   BlockBook& book = sim.books[b];
   book.overlap = book.wall_work = 0, book.contact_sides = book.wall_contacts = 0, book.loss = {};
   const std::size_t first = static_cast<std::size_t>(list.block_first[b]), pairs = static_cast<std::size_t>(list.block_first[b + 1]) - first;
+  if (scratch.force.size() < pairs) scratch.force.resize(pairs);
+  const PairView v = sim.pair_view(b, scratch.force.data());
   double t = clock ? omp_get_wtime() : 0;
   auto lap = [&](double PassClock::* part) {
     if (!clock) return;
@@ -122,12 +123,16 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
   book.wall.assign(sim.walls.size(), WallLoad());
   const std::size_t start = PairList::block_start(b), end = sim.block_end(b);
   for (std::int32_t e = list.row_first[start]; e < list.row_first[end]; ++e) book.contact_sides += list.row_touching[static_cast<std::size_t>(e)];
-  for (std::size_t s = start; s < end; ++s)
-    if (sim.wall_list.first[s] < sim.wall_list.first[s + 1]) sim.wall_forces(table, s, dt, book, scratch.wall);
+  scratch.on_walls.resize(static_cast<std::size_t>(kGrainsPerBlock));
+  for (std::size_t s = start; s < end; ++s) {
+    LoadRow& row = scratch.on_walls[s - start];
+    row = {};
+    if (sim.wall_list.first[s] < sim.wall_list.first[s + 1]) sim.wall_forces(table, s, dt, book, scratch.wall, row);
+  }
   lap(&PassClock::walls);
 }
-template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, PairForce*, PassClock*);
-template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, PairForce*, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, PassClock*);
 
 void prepare_batch(const Simulation::Impl& sim, PairBatch& batch) {
   std::visit(

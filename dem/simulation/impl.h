@@ -18,9 +18,6 @@
 
 namespace venato::dem {
 
-struct Load {
-  Trio force, torque;
-};
 struct GrainCard {  ///< cold data
   GrainId id;
   double mass;
@@ -92,7 +89,7 @@ struct Simulation::Impl {
   std::vector<GrainCard> card;
   std::vector<std::int32_t> slot_of_id;  ///< -1 = removed
   PairList pairs;
-  RawArray<PairForce> kept_force;  ///< [block_first + place] of the last finish_step() or evaluate()
+  RawArray<Load> kept_force;  ///< [block_first + place] on the pair's first grain, of the last finish_step() or evaluate()
   WallList wall_list;
   std::vector<WallModel> walls;
   std::vector<Vec3> wall_impulse;
@@ -140,15 +137,14 @@ struct Simulation::Impl {
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
   void keep_forces(double dt);  ///< forces of all contacts into kept_force, sums into load
-  void move_grain(std::size_t slot, const Load& load, bool second_half, BlockBook& book, double listed_for_s);
-  void note_crossings(std::size_t slot, const Sphere& from, const Sphere& to, const Motion& m, BlockBook& book) const;
-  void kick(Motion& m, const Load& l, double half) const;
+  void note_crossings(std::size_t block);
+  MoveView move_view(std::size_t block, BlockScratch& scratch);
   void fetch_block(FetchAhead& ahead, std::size_t block) const;
   PairView pair_view(std::size_t block, PairForce* force);
   void settle_contacts(double dt);  ///< books of block_forces()
   void settle_motion();             ///< books of move_grain()
   template <class L>
-  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch);
+  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch, LoadRow& sum);
 
   // helpers
   /// Rounds a displacement to the grid of 2^-52 of the box size in periodic directions: positions are then exact multiples of one quantum, so that

@@ -95,11 +95,11 @@ std::vector<ContactState> Simulation::contacts() const {
   std::vector<ContactState> all;
   for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, std::size_t force) {
     const ContactGeometry g = resting_geometry(e, i, j);
-    const PairForce& f = e.kept_force[force];
-    const Trio across_n = across(f.on_i, g.normal);
-    const Trio rolling = f.torque_i - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.on_i);
-    all.push_back({e.card[i].id, e.card[j].id, -1, g.overlap, to_vec3(g.normal), -dot(f.on_i, g.normal), to_vec3(h.spring), to_vec3(across_n),
-                   to_vec3(h.rolling), to_vec3(rolling), to_vec3(f.on_i), to_vec3(f.torque_i)});
+    const Load& f = e.kept_force[force];
+    const Trio across_n = across(f.force, g.normal);
+    const Trio rolling = f.torque - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.force);
+    all.push_back({e.card[i].id, e.card[j].id, -1, g.overlap, to_vec3(g.normal), -dot(f.force, g.normal), to_vec3(h.spring), to_vec3(across_n),
+                   to_vec3(h.rolling), to_vec3(rolling), to_vec3(f.force), to_vec3(f.torque)});
   });
   const std::size_t pair_count = all.size();
   for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {

@@ -50,7 +50,7 @@ HWY_INLINE void put_blocks(DD d, hn::Vec<DD> v, double* const* row, int odd, int
 }
 HWY_INLINE void put_columns(const double* a, const double* b, double* const* row, int at) {
   const D d;
-  const V va = hn::Load(d, a), vb = hn::Load(d, b);
+  const V va = hn::LoadU(d, a), vb = hn::LoadU(d, b);
   put_blocks(d, hn::InterleaveLower(d, va, vb), row, 0, at);
   put_blocks(d, hn::InterleaveUpper(d, va, vb), row, 1, at);
 }
@@ -162,14 +162,102 @@ std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int coun
     put_columns(b.force_x + g, b.force_y + g, f, 0);
     put_columns(b.force_z + g, b.torque_i_x + g, f, 2);
     put_columns(b.torque_i_y + g, b.torque_i_z + g, f, 4);
-    put_columns(b.torque_j_x + g, b.torque_j_y + g, f, 6);
-    for (int l = 0; l < kLanes; ++l) f[l][8] = b.torque_j_z[g + l];
+    double minus[3][kLanes];  // Newton's third law
+    hn::StoreU(hn::Neg(hn::Load(d, b.force_x + g)), d, minus[0]);
+    hn::StoreU(hn::Neg(hn::Load(d, b.force_y + g)), d, minus[1]);
+    hn::StoreU(hn::Neg(hn::Load(d, b.force_z + g)), d, minus[2]);
+    put_columns(minus[0], minus[1], f, 8);
+    put_columns(minus[2], b.torque_j_x + g, f, 10);
+    put_columns(b.torque_j_y + g, b.torque_j_z + g, f, 12);
     const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
     std::uint8_t mask[8] = {};
     hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);
     deep |= static_cast<std::uint32_t>(mask[0]) << g;
   }
   return deep;
+}
+
+constexpr int kParts = 8 / kLanes;  // vectors of a LoadRow or Motion
+struct Row8 {
+  V part[kParts];
+};
+HWY_INLINE Row8 load_row(const double* p) {
+  Row8 r;
+  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Load(D(), p + k * kLanes);
+  return r;
+}
+HWY_INLINE void add_row(Row8& sum, const double* p) {
+  for (int k = 0; k < kParts; ++k) sum.part[k] = hn::Add(sum.part[k], hn::Load(D(), p + k * kLanes));
+}
+HWY_INLINE Row8 grain_sum(const MoveView& v, std::size_t s, std::size_t start) {
+  Row8 sum;
+  for (int k = 0; k < kParts; ++k) sum.part[k] = hn::Zero(D());
+  const std::int32_t first = v.row_first[s], last = v.row_first[s + 1];
+  for (std::int32_t k = first; k < last; k += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, v.row_touching + k, 8);  // the lists are padded
+    if (last - k < 8) word &= (std::uint64_t{1} << (8 * (last - k))) - 1;
+    for (; word != 0; word &= word - 1) {
+      const RowEntry entry = v.row[static_cast<std::size_t>(k) + static_cast<std::size_t>(std::countr_zero(word)) / 8];
+      const auto* pair = reinterpret_cast<const double*>(v.force + v.place[entry.pair()]);
+      add_row(sum, pair + (entry.second() ? 8 : 0));
+    }
+  }
+  add_row(sum, v.extra[s - start].v);
+  return sum;
+}
+
+void sum_forces(const MoveView& v, std::size_t start, std::size_t end, LoadRow* out) {
+  for (std::size_t s = start; s < end; ++s) {
+    const Row8 sum = grain_sum(v, s, start);
+    for (int k = 0; k < kParts; ++k) hn::Store(sum.part[k], D(), out[s - start].v + k * kLanes);
+  }
+}
+
+/// v += (half / m) F + half g, w += (half / I) T; the inverse mass and inertia that stand behind them get zeros.
+HWY_INLINE void kick(Row8& m, const Row8& load, const Row8& rate, const Row8& fall) {
+  for (int k = 0; k < kParts; ++k) m.part[k] = hn::Add(hn::Add(m.part[k], hn::Mul(rate.part[k], load.part[k])), fall.part[k]);
+}
+
+void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) {
+  const D d;
+  const double dt = v.time_step, half = 0.5 * dt;
+  LoadRow fall, none;
+  for (int k = 0; k < 3; ++k) fall.v[k] = half * v.gravity.v[k];
+  const Row8 falls = load_row(fall.v), rests = load_row(none.v);
+  for (std::size_t s = start; s < end; ++s) {
+    const Sphere& from = v.sphere[s];
+    const double inverse_mass = v.motion[s].inverse_mass, inverse_inertia = v.motion[s].inverse_inertia;
+    Row8 m = load_row(reinterpret_cast<const double*>(v.motion + s)), load, rate;
+    if (v.force != nullptr) {
+      load = grain_sum(v, s, start);
+    } else {
+      const Load& l = v.load[s];
+      LoadRow row;
+      row.v[0] = l.force.x, row.v[1] = l.force.y, row.v[2] = l.force.z, row.v[3] = l.torque.x, row.v[4] = l.torque.y, row.v[5] = l.torque.z;
+      load = load_row(row.v);
+    }
+    const double slow = half * inverse_mass, turn = half * inverse_inertia;
+    alignas(64) const double rates[8] = {slow, slow, slow, turn, turn, turn, 0, 0};
+    rate = load_row(rates);
+    const Row8& fall_here = inverse_mass > 0 ? falls : rests;
+    if (v.force != nullptr) kick(m, load, rate, fall_here);
+    kick(m, load, rate, fall_here);
+    auto* motion = reinterpret_cast<double*>(v.next_motion + s);
+    for (int k = 0; k < kParts; ++k) hn::Store(m.part[k], d, motion + k * kLanes);
+    const double vx = motion[0], vy = motion[1], vz = motion[2];
+    Sphere& to = v.next_sphere[s];
+    to.x = from.x + ((vx * dt + v.snap[0]) - v.snap[0]);
+    to.y = from.y + ((vy * dt + v.snap[1]) - v.snap[1]);
+    to.z = from.z + ((vz * dt + v.snap[2]) - v.snap[2]);
+    to.r = from.r;
+    if (s < v.anchored) {
+      const double allowance = static_cast<double>(v.anchor[s].allowance);
+      book.strayed |= !(v.anchor[s].strayed2(to.x, to.y, to.z, v.listed_for) <= allowance * allowance);  // NaN strays
+    }
+    const double speed2 = vx * vx + vy * vy + vz * vz;
+    if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = s;  // NaN wins
+  }
 }
 }  // namespace venato::dem::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -179,10 +267,14 @@ namespace venato::dem {
 HWY_EXPORT(find_touching);
 HWY_EXPORT(load_lanes);
 HWY_EXPORT(store_lanes);
+HWY_EXPORT(sum_forces);
+HWY_EXPORT(move_grains);
 void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
   HWY_DYNAMIC_DISPATCH(find_touching)(v, from, to, now, changed);
 }
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) { HWY_DYNAMIC_DISPATCH(load_lanes)(v, pair, count, b); }
+void sum_forces(const MoveView& v, std::size_t start, std::size_t end, LoadRow* out) { HWY_DYNAMIC_DISPATCH(sum_forces)(v, start, end, out); }
+void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) { HWY_DYNAMIC_DISPATCH(move_grains)(v, start, end, book); }
 std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
   return HWY_DYNAMIC_DISPATCH(store_lanes)(v, pair, count, b, watch);
 }

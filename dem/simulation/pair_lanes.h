@@ -10,11 +10,25 @@
 
 namespace venato::dem {
 
+struct Load {
+  Trio force, torque;
+};
+
 /// What a touching pair reads besides the spheres: one cache line.
 struct alignas(64) Motion {
   Trio velocity, spin;
   double inverse_mass;     ///< 0 = frozen
   double inverse_inertia;  ///< 2.5 / (m R^2); 0 = frozen
+};
+
+/// Force (0-2) and torque (3-5) on a grain, padded with zeros to the shape of a Motion.
+struct alignas(64) LoadRow {
+  double v[8] = {};
+  Load load() const { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
+};
+/// What one pair does to its two grains.
+struct PairForce {
+  LoadRow first, second;
 };
 
 /// One block's lists, and the grains, as the vector code sees them. Pairs count from the block's first.
@@ -51,6 +65,36 @@ void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChun
 /// Fills the first `count` lanes (1 … kBatchWidth) of the batch with the touching pairs, and those up to the next multiple of 8 with the last of them.
 /// Materials (b.parameter) and pairs of two frozen grains are the caller's.
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b);
+/// A block's grains and their rows, for summing forces and moving the grains on.
+struct MoveView {
+  const Sphere* sphere;
+  const Motion* motion;
+  Sphere* next_sphere;
+  Motion* next_motion;
+  const Anchor* anchor;
+  std::size_t anchored;  ///< slots below have an anchor
+  const std::int32_t* row_first;
+  const RowEntry* row;
+  const std::uint8_t* row_touching;
+  const std::uint32_t* place;  ///< [pair of the block]
+  const PairForce* force;      ///< [place]; null: take loads instead
+  const LoadRow* extra;        ///< [grain of the block] walls
+  const Load* load;            ///< [slot]
+  double time_step, listed_for;
+  LoadRow gravity;  ///< (g, 0)
+  double snap[4];
+};
+struct MoveBook {
+  bool strayed = false;
+  double speed2 = 0;
+  std::size_t fastest = ~std::size_t{0};  ///< slot; all ones = nobody moves
+};
+
+/// Sum of a grain's pairs in ascending order of the partners' ids, then `extra`.
+void sum_forces(const MoveView& v, std::size_t start, std::size_t end, LoadRow* out);
+/// Second half kick of the last step (if forces are given), first half kick of this one, drift: start … end - 1 from sphere, motion to next_*.
+void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book);
+
 /// Puts histories and forces back. \return lanes (one bit each) whose overlap is above `watch` radii of the smaller grain
 std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch);
 }  // namespace venato::dem

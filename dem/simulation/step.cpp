@@ -9,7 +9,7 @@ namespace venato::dem {
 namespace {
 constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
 constexpr std::size_t kFetchFrom = 4000;      // grains: smaller systems live in the caches anyway
-constexpr std::size_t kLinesPerGrains = 8, kGrainsPerFetch = 4;
+constexpr std::size_t kGrainsPerFetch = 32, kLinesPerFetch = 80;
 
 class Stopwatch {
  public:
@@ -62,7 +62,12 @@ void Simulation::Impl::finish_step() {
   if (!pending) return;
   keep_forces(setup.time_step_s);
   const double half = 0.5 * setup.time_step_s;
-  for (std::size_t s = 0; s < sphere.size(); ++s) kick(motion[s], load[s], half);
+  const Trio g = to_trio(setup.gravity_m_s2);
+  for (std::size_t s = 0; s < sphere.size(); ++s) {  // the same operations as kick() of pair_lanes.cpp
+    Motion& m = motion[s];
+    m.velocity = m.velocity + (half * m.inverse_mass) * load[s].force + (m.inverse_mass > 0 ? 1.0 : 0.0) * (half * g);
+    m.spin = m.spin + (half * m.inverse_inertia) * load[s].torque;
+  }
   pending = false;
 }
 
@@ -95,9 +100,12 @@ void Simulation::Impl::keep_forces(double dt) {
 #pragma omp for schedule(dynamic, 1)
           for (std::int64_t i = 0; i < nb; ++i) {
             const std::size_t b = static_cast<std::size_t>(i);
-            PairForce* force = kept_force.data() + pairs.block_first[b];
-            block_forces(*this, table, dt, b, mine, force, nullptr);
-            for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = contact_load(*this, s, force);
+            block_forces(*this, table, dt, b, mine, nullptr);
+            for (std::uint32_t k = 0; k < pairs.contacts[b].used; ++k)
+              kept_force[static_cast<std::size_t>(pairs.block_first[b]) + k] = mine.force[k].first.load();
+            LoadRow sum[kGrainsPerBlock];
+            sum_forces(move_view(b, mine), PairList::block_start(b), block_end(b), sum);
+            for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = sum[s - PairList::block_start(b)].load();
           }
         }
       },
@@ -105,45 +113,38 @@ void Simulation::Impl::keep_forces(double dt) {
   settle_contacts(dt);
 }
 
-inline void Simulation::Impl::kick(Motion& m, const Load& l, double half) const {
-  const double falls = m.inverse_mass > 0 ? half : 0.0;
-  const Vec3& g = setup.gravity_m_s2;
-  m.velocity = m.velocity + (half * m.inverse_mass) * l.force + falls * Trio{g.x(), g.y(), g.z()};
-  m.spin = m.spin + (half * m.inverse_inertia) * l.torque;
-}
-
-void Simulation::Impl::note_crossings(std::size_t s, const Sphere& from, const Sphere& to, const Motion& m, BlockBook& book) const {
-  const double old[3] = {from.x, from.y, from.z}, now[3] = {to.x, to.y, to.z};
-  for (std::size_t c = 0; c < counters.size(); ++c) {
-    const Counter& k = counters[c];
-    const double a = old[k.axis] - k.position_m, z = now[k.axis] - k.position_m;
-    if (k.sign > 0 ? !(a < 0 && z >= 0) : !(a > 0 && z <= 0)) continue;
-    const double part = a / (a - z);
-    Vec3 at(old[0] + part * (now[0] - old[0]), old[1] + part * (now[1] - old[1]), old[2] + part * (now[2] - old[2]));
-    const Vec3 inside = wrapped(at);
-    if ((inside.array() < k.window_low.array()).any() || (inside.array() > k.window_high.array()).any()) continue;
-    for (int d = 0; d < 3; ++d) at[d] += card[s].image[static_cast<std::size_t>(d)] * box.length[static_cast<std::size_t>(d)];
-    book.crossing.push_back({static_cast<int>(c), time() + part * setup.time_step_s, part, card[s].id, at, to_vec3(m.velocity), to_vec3(m.spin)});
+void Simulation::Impl::note_crossings(std::size_t block) {
+  BlockBook& book = books[block];
+  for (std::size_t s = PairList::block_start(block); s < block_end(block); ++s) {
+    const Sphere &from = sphere[s], &to = next_sphere[s];
+    const double old[3] = {from.x, from.y, from.z}, now[3] = {to.x, to.y, to.z};
+    for (std::size_t c = 0; c < counters.size(); ++c) {
+      const Counter& k = counters[c];
+      const double a = old[k.axis] - k.position_m, z = now[k.axis] - k.position_m;
+      if (k.sign > 0 ? !(a < 0 && z >= 0) : !(a > 0 && z <= 0)) continue;
+      const double part = a / (a - z);
+      Vec3 at(old[0] + part * (now[0] - old[0]), old[1] + part * (now[1] - old[1]), old[2] + part * (now[2] - old[2]));
+      const Vec3 inside = wrapped(at);
+      if ((inside.array() < k.window_low.array()).any() || (inside.array() > k.window_high.array()).any()) continue;
+      for (int d = 0; d < 3; ++d) at[d] += card[s].image[static_cast<std::size_t>(d)] * box.length[static_cast<std::size_t>(d)];
+      const Motion& m = next_motion[s];
+      book.crossing.push_back({static_cast<int>(c), time() + part * setup.time_step_s, part, card[s].id, at, to_vec3(m.velocity), to_vec3(m.spin)});
+    }
   }
 }
 
-/// Second half kick of the last step (if it is still due), first half kick of this one, drift.
-inline void Simulation::Impl::move_grain(std::size_t s, const Load& l, bool second_half, BlockBook& book, double listed_for_s) {
-  const double dt = setup.time_step_s, half = 0.5 * dt;
-  const Sphere& from = sphere[s];
-  Motion m = motion[s];
-  if (second_half) kick(m, l, half);
-  kick(m, l, half);
-  const Sphere to{from.x + snapped(0, m.velocity.x * dt), from.y + snapped(1, m.velocity.y * dt), from.z + snapped(2, m.velocity.z * dt), from.r};
-  if (s < anchor.size()) {
-    const double allowance = static_cast<double>(anchor[s].allowance);
-    book.strayed |= !(anchor[s].strayed2(to.x, to.y, to.z, listed_for_s) <= allowance * allowance);  // NaN strays
-  }
-  const double speed2 = dot(m.velocity, m.velocity);
-  if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = card[s].id;  // NaN wins
-  if (!counters.empty()) note_crossings(s, from, to, m, book);
-  next_sphere[s] = to;
-  next_motion[s] = m;
+MoveView Simulation::Impl::move_view(std::size_t block, BlockScratch& mine) {
+  MoveView v{};
+  v.sphere = sphere.data(), v.motion = motion.data(), v.next_sphere = next_sphere.data(), v.next_motion = next_motion.data();
+  v.anchor = anchor.data(), v.anchored = std::min(anchor.size(), sphere.size());
+  v.load = load.data();
+  v.time_step = setup.time_step_s, v.listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
+  for (int a = 0; a < 3; ++a) v.gravity.v[a] = setup.gravity_m_s2[a], v.snap[a] = snap[static_cast<std::size_t>(a)];
+  if (block + 1 >= pairs.block_first.size()) return v;  // no list yet: loads only
+  v.row_first = pairs.row_first.data(), v.row = pairs.row.data(), v.row_touching = pairs.row_touching.data();
+  v.place = pairs.place.data() + pairs.block_first[block];
+  v.force = mine.force.data(), v.extra = mine.on_walls.data();
+  return v;
 }
 
 /// What the pass over `block` will read and write, and the lists of the one after it (they say which grains to fetch for that one).
@@ -165,7 +166,7 @@ void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
 }
 
 void Simulation::Impl::advance() {
-  const double began = omp_get_wtime(), listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
+  const double began = omp_get_wtime();
   const std::int64_t nb = blocks();
   books.resize(static_cast<std::size_t>(nb));
   thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
@@ -183,20 +184,24 @@ void Simulation::Impl::advance() {
           for (std::int64_t i = 0; i < nb; ++i) {
             const std::size_t b = static_cast<std::size_t>(i), start = PairList::block_start(b), end = block_end(b);
             BlockBook& book = books[b];
-            book.strayed = false, book.speed2 = 0, book.fastest = -1;
             const bool clocked = i % kClockedBlocks == 0;
-            if (pending) fetch_block(mine.ahead, b + 1);
             if (pending) {
-              const std::size_t count = static_cast<std::size_t>(pairs.block_first[b + 1] - pairs.block_first[b]);
-              if (mine.force.size() < count) mine.force.resize(count);
-              block_forces(*this, table, setup.time_step_s, b, mine, mine.force.data(), clocked ? &clock : nullptr);
+              fetch_block(mine.ahead, b + 1);
+              block_forces(*this, table, setup.time_step_s, b, mine, clocked ? &clock : nullptr);
             }
             const double t = clocked ? omp_get_wtime() : 0;
-            for (std::size_t s = start; s < end; ++s) {
-              if (s % kGrainsPerFetch == 0) mine.ahead.some(kLinesPerGrains);
-              move_grain(s, pending ? contact_load(*this, s, mine.force.data()) : load[s], pending, book, listed_for);
+            MoveView v = move_view(b, mine);
+            if (!pending) v.force = nullptr;
+            MoveBook moved;
+            for (std::size_t s = start; s < end; s += kGrainsPerFetch) {
+              move_grains(v, s, std::min(end, s + kGrainsPerFetch), moved);
+              v.extra += kGrainsPerFetch;
+              if (pending) mine.ahead.some(kLinesPerFetch);
             }
-            mine.ahead.rest();
+            if (pending) mine.ahead.rest();
+            book.strayed = moved.strayed, book.speed2 = moved.speed2;
+            book.fastest = moved.fastest < card.size() ? card[moved.fastest].id : -1;
+            if (!counters.empty()) note_crossings(b);
             if (clocked) clock.integrate += omp_get_wtime() - t;
           }
         }

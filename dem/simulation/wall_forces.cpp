@@ -43,7 +43,8 @@ ContactGeometry wall_frame(const Sphere& x, const Motion& m, double mass, const 
 }  // namespace
 
 template <class L>
-void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch) {
+void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch,
+                                   LoadRow& sum) {
   const Sphere& x = sphere[s];
   const Motion& m = motion[s];
   WallContact* row = wall_list.contact.data() + wall_list.contact_first[s];
@@ -68,6 +69,8 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
       now.force = law.force(g, now.history, dt);
       now.on_grain = now.force.tangential - now.force.normal * n;
       now.torque_on_grain = x.r * cross(n, now.force.tangential) + now.force.rolling;
+      const Trio &f = now.on_grain, &t_on = now.torque_on_grain;
+      sum.v[0] += f.x, sum.v[1] += f.y, sum.v[2] += f.z, sum.v[3] += t_on.x, sum.v[4] += t_on.y, sum.v[5] += t_on.z;
       const Vec3 on_wall = -to_vec3(now.on_grain);
       book.wall[static_cast<std::size_t>(c.wall)].force_n += on_wall;
       book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
@@ -87,6 +90,8 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
   std::copy(scratch.begin(), scratch.end(), row);
   wall_list.contact_count[s] = static_cast<std::uint8_t>(scratch.size());
 }
-template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, BlockBook&, std::vector<WallContact>&);
-template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, BlockBook&, std::vector<WallContact>&);
+template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, BlockBook&, std::vector<WallContact>&,
+                                            LoadRow&);
+template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, BlockBook&, std::vector<WallContact>&,
+                                            LoadRow&);
 }  // namespace venato::dem
