@@ -17,42 +17,81 @@ using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 static_assert(kLanes == 1 || kLanes == 2 || kLanes == 4 || kLanes == 8, "fixed-size vectors only");
 
-#if HWY_TARGET == HWY_SCALAR  // a CPU without SSSE3: one lane, nothing to transpose
-HWY_INLINE void columns(const double* const* row, int at, V& a, V& b) { a = hn::LoadU(D(), row[0] + at), b = hn::LoadU(D(), row[0] + at + 1); }
-HWY_INLINE void put_columns(const double* a, const double* b, double* const* row, int at) { row[0][at] = *a, row[0][at + 1] = *b; }
+// Rows (one grain's or contact's numbers side by side) to lanes (one number of kLanes rows side by side) and back. Whole rows are loaded and stored,
+// turning happens in registers.
+#if HWY_TARGET == HWY_SCALAR  // a CPU without SSSE3: one lane, nothing to turn
+HWY_INLINE void load_rows4(const double* const* row, V* c) {
+  for (int k = 0; k < 4; ++k) c[k] = hn::LoadU(D(), row[0] + k);
+}
+HWY_INLINE void load_rows8(const double* const* row, V* c) {
+  for (int k = 0; k < 8; ++k) c[k] = hn::LoadU(D(), row[0] + k);
+}
+HWY_INLINE void store_rows8(const V* c, double* const* row) {
+  for (int k = 0; k < 8; ++k) hn::StoreU(c[k], D(), row[0] + k);
+}
 #else
-/// Vector whose k-th pair of lanes is row[2 k + odd][at], row[2 k + odd][at + 1].
-template <class DD>
-HWY_INLINE hn::Vec<DD> blocks(DD d, const double* const* row, int odd, int at) {
-  if constexpr (hn::MaxLanes(DD()) == 2) {
-    return hn::LoadU(d, row[odd] + at);
-  } else {
-    const hn::Half<DD> half;
-    return hn::Combine(d, blocks(half, row + hn::MaxLanes(DD()) / 2, odd, at), blocks(half, row, odd, at));
+/// Turns 2 x 2 numbers inside every 128-bit block.
+HWY_INLINE void turn2(V& a, V& b) {
+  const V low = hn::InterleaveLower(D(), a, b), high = hn::InterleaveUpper(D(), a, b);
+  a = low, b = high;
+}
+#if HWY_MAX_BYTES == 16
+constexpr int kSquare = 2;  // rows that are turned together
+HWY_INLINE void turn(V* v) { turn2(v[0], v[1]); }
+#else
+/// Turns 2 x 2 neighbouring blocks: [a0 a1 …], [b0 b1 …] -> [a0 b0 …], [a1 b1 …].
+HWY_INLINE void turn_blocks(V& a, V& b) {
+#if HWY_MAX_BYTES == 32
+  const V low = hn::ConcatLowerLower(D(), b, a), high = hn::ConcatUpperUpper(D(), b, a);
+#else
+  const V low = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a), high = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
+#endif
+  a = low, b = high;
+}
+/// Turns 4 x 4 numbers in every 256 bits.
+HWY_INLINE void turn4(V* v) {
+  turn2(v[0], v[1]), turn2(v[2], v[3]);
+  turn_blocks(v[0], v[2]), turn_blocks(v[1], v[3]);
+}
+#if HWY_MAX_BYTES == 32
+constexpr int kSquare = 4;
+HWY_INLINE void turn(V* v) { turn4(v); }
+#else
+constexpr int kSquare = 8;
+HWY_INLINE void turn(V* v) {
+  turn4(v), turn4(v + 4);
+  for (int k = 0; k < 4; ++k) {
+    const V low = hn::ConcatLowerLower(D(), v[k + 4], v[k]), high = hn::ConcatUpperUpper(D(), v[k + 4], v[k]);
+    v[k] = low, v[k + 4] = high;
   }
 }
-/// Columns `at` and `at + 1` of kLanes rows.
-HWY_INLINE void columns(const double* const* row, int at, V& a, V& b) {
-  const D d;
-  const V even = blocks(d, row, 0, at), odd = blocks(d, row, 1, at);
-  a = hn::InterleaveLower(d, even, odd);
-  b = hn::InterleaveUpper(d, even, odd);
+#endif
+#endif
+HWY_INLINE void load_rows4(const double* const* row, V* c) {
+#if HWY_MAX_BYTES == 64
+  const hn::Half<D> half;
+  for (int l = 0; l < 4; ++l) c[l] = hn::Combine(D(), hn::LoadU(half, row[l + 4]), hn::LoadU(half, row[l]));
+  turn4(c);
+#else
+  for (int h = 0; h < 4; h += kSquare) {
+    for (int l = 0; l < kSquare; ++l) c[h + l] = hn::LoadU(D(), row[l] + h);
+    turn(c + h);
+  }
+#endif
 }
-template <class DD>
-HWY_INLINE void put_blocks(DD d, hn::Vec<DD> v, double* const* row, int odd, int at) {
-  if constexpr (hn::MaxLanes(DD()) == 2) {
-    hn::StoreU(v, d, row[odd] + at);
-  } else {
-    const hn::Half<DD> half;
-    put_blocks(half, hn::LowerHalf(half, v), row, odd, at);
-    put_blocks(half, hn::UpperHalf(half, v), row + hn::MaxLanes(DD()) / 2, odd, at);
+HWY_INLINE void load_rows8(const double* const* row, V* c) {
+  for (int h = 0; h < 8; h += kSquare) {
+    for (int l = 0; l < kSquare; ++l) c[h + l] = hn::LoadU(D(), row[l] + h);
+    turn(c + h);
   }
 }
-HWY_INLINE void put_columns(const double* a, const double* b, double* const* row, int at) {
-  const D d;
-  const V va = hn::LoadU(d, a), vb = hn::LoadU(d, b);
-  put_blocks(d, hn::InterleaveLower(d, va, vb), row, 0, at);
-  put_blocks(d, hn::InterleaveUpper(d, va, vb), row, 1, at);
+HWY_INLINE void store_rows8(const V* column, double* const* row) {
+  V c[8];
+  for (int k = 0; k < 8; ++k) c[k] = column[k];
+  for (int h = 0; h < 8; h += kSquare) {
+    turn(c + h);
+    for (int l = 0; l < kSquare; ++l) hn::StoreU(c[h + l], D(), row[l] + h);
+  }
 }
 #endif
 HWY_INLINE V nearest(V x, double length, double inverse) {
@@ -64,11 +103,9 @@ struct Apart {
   V x, y, z, ri, rj;
 };
 HWY_INLINE Apart apart(const PairView& v, const double* const* i, const double* const* j) {
-  V ix, iy, iz, jx, jy, jz;
-  Apart p;
-  columns(i, 0, ix, iy), columns(i, 2, iz, p.ri);
-  columns(j, 0, jx, jy), columns(j, 2, jz, p.rj);
-  p.x = hn::Sub(jx, ix), p.y = hn::Sub(jy, iy), p.z = hn::Sub(jz, iz);
+  V a[4], b[4];
+  load_rows4(i, a), load_rows4(j, b);
+  Apart p{hn::Sub(b[0], a[0]), hn::Sub(b[1], a[1]), hn::Sub(b[2], a[2]), a[3], b[3]};
   if (v.periodic) {
     p.x = nearest(p.x, v.length[0], v.inverse_length[0]);
     p.y = nearest(p.y, v.length[1], v.inverse_length[1]);
@@ -130,45 +167,37 @@ void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBat
     const Apart a = apart(v, is, js);
     hn::Store(a.x, d, b.from_i_x + g), hn::Store(a.y, d, b.from_i_y + g), hn::Store(a.z, d, b.from_i_z + g);
     hn::Store(a.ri, d, b.radius_i + g), hn::Store(a.rj, d, b.radius_j + g);
-    V i0, i1, j0, j1;
-    columns(im, 0, i0, i1), columns(jm, 0, j0, j1);
-    hn::Store(hn::Sub(j0, i0), d, b.dv_x + g), hn::Store(hn::Sub(j1, i1), d, b.dv_y + g);
-    columns(im, 2, i0, i1), columns(jm, 2, j0, j1);
-    hn::Store(hn::Sub(j0, i0), d, b.dv_z + g), hn::Store(i1, d, b.wi_x + g), hn::Store(j1, d, b.wj_x + g);
-    columns(im, 4, i0, i1), columns(jm, 4, j0, j1);
-    hn::Store(i0, d, b.wi_y + g), hn::Store(i1, d, b.wi_z + g), hn::Store(j0, d, b.wj_y + g), hn::Store(j1, d, b.wj_z + g);
-    columns(im, 6, i0, i1), columns(jm, 6, j0, j1);
-    hn::Store(i0, d, b.inverse_mass_i + g), hn::Store(j0, d, b.inverse_mass_j + g);
-    for (int c = 0; c < 8; c += 2) {
-      columns(h, c, i0, i1);
-      hn::Store(i0, d, b.history[c] + g), hn::Store(i1, d, b.history[c + 1] + g);
-    }
+    V i[8], j[8];
+    load_rows8(im, i), load_rows8(jm, j);
+    hn::Store(hn::Sub(j[0], i[0]), d, b.dv_x + g), hn::Store(hn::Sub(j[1], i[1]), d, b.dv_y + g), hn::Store(hn::Sub(j[2], i[2]), d, b.dv_z + g);
+    hn::Store(i[3], d, b.wi_x + g), hn::Store(i[4], d, b.wi_y + g), hn::Store(i[5], d, b.wi_z + g);
+    hn::Store(j[3], d, b.wj_x + g), hn::Store(j[4], d, b.wj_y + g), hn::Store(j[5], d, b.wj_z + g);
+    hn::Store(i[6], d, b.inverse_mass_i + g), hn::Store(j[6], d, b.inverse_mass_j + g);
+    load_rows8(h, i);
+    for (int c = 0; c < 8; ++c) hn::Store(i[c], d, b.history[c] + g);
   }
 }
 
 std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
   const D d;
   auto* history = reinterpret_cast<double*>(v.history);
-  auto* force = reinterpret_cast<double*>(v.force);
-  constexpr std::size_t kForce = sizeof(PairForce) / sizeof(double);
   std::uint32_t deep = 0;
   for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
-    double *h[kLanes], *f[kLanes];
+    double *h[kLanes], *first[kLanes], *second[kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const std::size_t k = v.place[pair[std::min(g + l, count - 1)]];
-      h[l] = history + 8 * k, f[l] = force + kForce * k;
+      h[l] = history + 8 * k, first[l] = v.force[k].first.v, second[l] = v.force[k].second.v;
     }
-    for (int c = 0; c < 8; c += 2) put_columns(b.history[c] + g, b.history[c + 1] + g, h, c);
-    put_columns(b.force_x + g, b.force_y + g, f, 0);
-    put_columns(b.force_z + g, b.torque_i_x + g, f, 2);
-    put_columns(b.torque_i_y + g, b.torque_i_z + g, f, 4);
-    double minus[3][kLanes];  // Newton's third law
-    hn::StoreU(hn::Neg(hn::Load(d, b.force_x + g)), d, minus[0]);
-    hn::StoreU(hn::Neg(hn::Load(d, b.force_y + g)), d, minus[1]);
-    hn::StoreU(hn::Neg(hn::Load(d, b.force_z + g)), d, minus[2]);
-    put_columns(minus[0], minus[1], f, 8);
-    put_columns(minus[2], b.torque_j_x + g, f, 10);
-    put_columns(b.torque_j_y + g, b.torque_j_z + g, f, 12);
+    V c[8];
+    for (int k = 0; k < 8; ++k) c[k] = hn::Load(d, b.history[k] + g);
+    store_rows8(c, h);
+    c[0] = hn::Load(d, b.force_x + g), c[1] = hn::Load(d, b.force_y + g), c[2] = hn::Load(d, b.force_z + g);
+    c[3] = hn::Load(d, b.torque_i_x + g), c[4] = hn::Load(d, b.torque_i_y + g), c[5] = hn::Load(d, b.torque_i_z + g);
+    c[6] = c[7] = hn::Zero(d);
+    store_rows8(c, first);
+    for (int k = 0; k < 3; ++k) c[k] = hn::Neg(c[k]);  // Newton's third law
+    c[3] = hn::Load(d, b.torque_j_x + g), c[4] = hn::Load(d, b.torque_j_y + g), c[5] = hn::Load(d, b.torque_j_z + g);
+    store_rows8(c, second);
     const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
     std::uint8_t mask[8] = {};
     hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);
