@@ -11,7 +11,7 @@
 namespace venato::dem {
 namespace {
 // Allowances in radii: what the plan aims at for a typical grain, and the least (rounding, vibration of a resting bed).
-constexpr double kAim = 0.10, kLeast = 0.02;
+constexpr double kAim = 0.14, kLeast = 0.02;
 constexpr double kFast = 3;            // faster than this many rms: flies on its own path
 constexpr double kShear = 0.25;        // part of the velocity difference between neighbouring cells that counts as fluctuation
 constexpr double kMostFall = 0.1;      // of a radius: what gravity may do within one life

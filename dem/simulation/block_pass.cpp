@@ -11,7 +11,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::size_t kLinesPerBatch = 100;
+constexpr std::size_t kLinesPerBatch = 24;
 
 template <class L>
 void set_law(PairBatch& batch, int l, const L& law) {

@@ -29,7 +29,7 @@ class FetchAhead {
     while (n > 0 && range_ < ranges_) {
       const std::size_t take = std::min(n, lines_[range_] - at_);
       const auto* p = reinterpret_cast<const char*>(from_[range_]) + 64 * at_;
-      for (std::size_t k = 0; k < take; ++k) __builtin_prefetch(p + 64 * k, 0, 2);
+      for (std::size_t k = 0; k < take; ++k) __builtin_prefetch(p + 64 * k, 0, 3);
       n -= take, at_ += take;
       if (at_ == lines_[range_]) ++range_, at_ = 0;
     }

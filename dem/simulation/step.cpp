@@ -9,7 +9,7 @@ namespace venato::dem {
 namespace {
 constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
 constexpr std::size_t kFetchFrom = 4000;      // grains: smaller systems live in the caches anyway
-constexpr std::size_t kGrainsPerFetch = 32, kLinesPerFetch = 80;
+constexpr std::size_t kGrainsPerFetch = 8, kLinesPerFetch = 40;
 
 class Stopwatch {
  public:

@@ -7,7 +7,7 @@
 
 namespace venato::dem {
 
-inline constexpr int kBatchWidth = 32;
+inline constexpr int kBatchWidth = 16;
 inline constexpr int kMaxParameters = 9;
 
 /// Raw state of touching pairs; `from_i` = position of j seen from i (periodic image already chosen).
