@@ -53,12 +53,16 @@ void evaluate(Simulation::Impl& sim, const LawTable<L>& table, const PairView& v
               BlockBook& book) {
   const int lanes = (count + 7) / 8 * 8;
   load_lanes(v, pair, count, batch);
-  for (int l = 0; l < lanes; ++l) {
-    const std::size_t i = v.first(pair[std::min(l, count - 1)]), j = v.second(pair[std::min(l, count - 1)]);
-    if (!sim.one_material) set_law(batch, l, table.of(sim.card[i].material, sim.card[j].material));
-    // Two frozen grains: neither is accelerated, but the contact has the stiffness and damping of the real ones.
-    if (batch.inverse_mass_i[l] + batch.inverse_mass_j[l] == 0) batch.inverse_mass_i[l] = 1 / sim.card[i].mass, batch.inverse_mass_j[l] = 1 / sim.card[j].mass;
+  for (int l = 0; l < lanes && !sim.one_material; ++l) {
+    const std::size_t p = pair[std::min(l, count - 1)];
+    set_law(batch, l, table.of(sim.card[v.first(p)].material, sim.card[v.second(p)].material));
   }
+  // Two frozen grains: neither is accelerated, but the contact has the stiffness and damping of the real ones.
+  for (int l = 0; l < lanes && sim.any_frozen; ++l)
+    if (batch.inverse_mass_i[l] + batch.inverse_mass_j[l] == 0) {
+      const std::size_t p = pair[std::min(l, count - 1)];
+      batch.inverse_mass_i[l] = 1 / sim.card[v.first(p)].mass, batch.inverse_mass_j[l] = 1 / sim.card[v.second(p)].mass;
+    }
   if (sim.setup.track_energy && dt > 0) account<L>(v, batch, pair, count, dt, book);
   evaluate_batch(static_cast<const L*>(nullptr), batch, lanes, dt);
   constexpr double kBelow = 1 - 1e-12;  // rounding of the comparison must not decide: the maximum is the same in any order

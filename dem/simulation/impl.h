@@ -112,6 +112,7 @@ struct Simulation::Impl {
   /// on, unless somebody looks before (finish_step). Same bytes either way.
   bool pending = false;
   bool one_material = true;  ///< all grains of one material: law parameters stay in the batch
+  bool any_frozen = false;   ///< of the grains in the list
   std::vector<Crossing> crossings;
   std::vector<BlockBook> books;
   std::vector<std::unique_ptr<BlockScratch>> thread_scratch;  ///< [thread]

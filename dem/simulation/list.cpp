@@ -77,6 +77,7 @@ void Simulation::Impl::rebuild_list() {
   permute(card, order);
   for (std::size_t s = 0; s < card.size(); ++s) slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s);
   one_material = std::all_of(card.begin(), card.end(), [&](const GrainCard& c) { return c.material == card.front().material; });
+  any_frozen = std::any_of(card.begin(), card.end(), [](const GrainCard& c) { return c.frozen != 0; });
   // 3. pairs and walls, histories carried
   std::vector<GrainId> ids(card.size());
   std::transform(card.begin(), card.end(), ids.begin(), [](const GrainCard& c) { return c.id; });

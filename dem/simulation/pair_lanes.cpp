@@ -251,8 +251,9 @@ HWY_INLINE void kick(Row8& m, const Row8& load, const Row8& rate, const Row8& fa
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) {
   const D d;
   const double dt = v.time_step, half = 0.5 * dt;
-  LoadRow fall, none;
-  for (int k = 0; k < 3; ++k) fall.v[k] = half * v.gravity.v[k];
+  LoadRow fall, none, ones, ones_below;
+  for (int k = 0; k < 3; ++k) fall.v[k] = half * v.gravity.v[k], ones.v[k] = ones_below.v[k + 3] = 1;
+  const Row8 force_lanes = load_row(ones.v), torque_lanes = load_row(ones_below.v);
   const Row8 falls = load_row(fall.v), rests = load_row(none.v);
   for (std::size_t s = start; s < end; ++s) {
     const Sphere& from = v.sphere[s];
@@ -266,9 +267,9 @@ void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook
       row.v[0] = l.force.x, row.v[1] = l.force.y, row.v[2] = l.force.z, row.v[3] = l.torque.x, row.v[4] = l.torque.y, row.v[5] = l.torque.z;
       load = load_row(row.v);
     }
-    const double slow = half * inverse_mass, turn = half * inverse_inertia;
-    alignas(64) const double rates[8] = {slow, slow, slow, turn, turn, turn, 0, 0};
-    rate = load_row(rates);
+    // Vectors from vectors: a row put together from numbers in memory would wait for them to arrive there.
+    for (int k = 0; k < kParts; ++k)
+      rate.part[k] = hn::Add(hn::Mul(hn::Set(d, half * inverse_mass), force_lanes.part[k]), hn::Mul(hn::Set(d, half * inverse_inertia), torque_lanes.part[k]));
     const Row8& fall_here = inverse_mass > 0 ? falls : rests;
     if (v.force != nullptr) kick(m, load, rate, fall_here);
     kick(m, load, rate, fall_here);

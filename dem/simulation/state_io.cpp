@@ -18,7 +18,7 @@ void exchange(Archive& a, Impl& e) {
   a.list(e.wall_list.contact_first), a.list(e.wall_list.contact_count), a.list(e.wall_list.contact);
   a.list(e.anchor), a.list(e.reach), a.value(e.list_life_s), a.value(e.farthest_m), a.value(e.listed), a.value(e.list_valid);
   a.value(e.step_count), a.value(e.lost), a.value(e.wall_work), a.value(e.step_of_build), a.value(e.reach_experience);
-  a.value(e.forces_valid), a.value(e.one_material), a.value(e.living);
+  a.value(e.forces_valid), a.value(e.one_material), a.value(e.any_frozen), a.value(e.living);
   a.list(e.crossings);
 }
 }  // namespace
