@@ -20,29 +20,18 @@ void PairList::resize(std::size_t pairs, std::size_t entries) {
   place.resize_for_overwrite(pairs);
   history.resize_for_overwrite(pairs);
   row.resize_for_overwrite(entries);
-  row_touching.resize_for_overwrite(entries + kListPadding);
-  std::memset(row_touching.data(), 0, entries + kListPadding);
 }
 
-void PairList::mark(std::size_t block, std::size_t pair, std::uint8_t touches) {
-  touching[pair] = touches;
-  const std::uint32_t in_block = static_cast<std::uint32_t>(pair - static_cast<std::size_t>(block_first[block]));
-  auto in_row = [&](std::size_t slot, std::uint32_t code) {
-    for (std::int32_t e = row_first[slot]; e < row_first[slot + 1]; ++e)
-      if (row[static_cast<std::size_t>(e)].code == code) row_touching[static_cast<std::size_t>(e)] = touches;
-  };
-  in_row(block_start(block) + own[pair], in_block);
-  const std::size_t second = static_cast<std::size_t>(partner[pair]);
-  if (block_of(second) == block) in_row(second, in_block | kSecond);
-}
 void PairList::start(std::size_t block, std::size_t pair, const ContactHistory& h) {
   place[pair] = contacts[block].take();
   history_of(block, pair) = h;
-  mark(block, pair, 1);
+  touching[pair] = 1;
+  contacts[block].sides += sides(block, pair);
 }
 void PairList::end(std::size_t block, std::size_t pair) {
   contacts[block].vacant.push_back(place[pair]);
-  mark(block, pair, 0);
+  touching[pair] = 0;
+  contacts[block].sides -= sides(block, pair);
 }
 
 void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out) {
@@ -83,25 +72,45 @@ void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vec
   }
 }
 
+/// Pairs of a block in the order of (lower id, higher id), with the rows' entries for their first grains. A grain's pairs with higher ids are one run of
+/// its row; pairs with a grain of another block that has the lower id come singly.
+void PairListBuilder::order_pairs(PairList& list, const PairListInput& in, std::size_t block) const {
+  const BlockRows& rows = rows_[block];
+  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
+  struct Run {
+    std::int64_t lower, higher;  // ids; higher is the first of the run
+    std::uint32_t grain, from, to;  // entries of the grain's row
+  };
+  std::vector<Run> runs;
+  runs.reserve(3 * static_cast<std::size_t>(kGrainsPerBlock));
+  for (std::size_t s = start; s < end; ++s) {
+    const std::span<const Neighbour> row = rows.of(s - start);
+    std::uint32_t k = 0;
+    for (; k < row.size() && row[k].id < in.id[s]; ++k) {
+      const std::size_t other = static_cast<std::size_t>(row[k].slot);
+      if (other < start || other >= end) runs.push_back({row[k].id, in.id[s], static_cast<std::uint32_t>(s - start), k, k + 1});
+    }
+    if (k < row.size()) runs.push_back({in.id[s], row[k].id, static_cast<std::uint32_t>(s - start), k, static_cast<std::uint32_t>(row.size())});
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.lower != b.lower ? a.lower < b.lower : a.higher < b.higher; });
+  const std::size_t first = static_cast<std::size_t>(list.block_first[block]);
+  std::size_t p = first;
+  for (const Run& r : runs) {
+    const std::span<const Neighbour> row = rows.of(r.grain);
+    for (std::uint32_t k = r.from; k < r.to; ++k, ++p) {
+      list.own[p] = static_cast<std::uint16_t>(r.grain);
+      list.partner[p] = row[k].slot;
+      list.row[static_cast<std::size_t>(list.row_first[start + r.grain]) + k].code = static_cast<std::uint32_t>(p - first);
+    }
+  }
+}
+
 /// Pairs and rows of a block, then what the old list knows of their contacts.
 void PairListBuilder::fill_block(PairList& list, const PairListInput& in, std::size_t block) const {
   const BlockRows& rows = rows_[block];
   const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
   auto inside = [&](std::int32_t slot) { return static_cast<std::size_t>(slot) >= start && static_cast<std::size_t>(slot) < end; };
-  const std::size_t first = static_cast<std::size_t>(list.block_first[block]);
-  std::size_t p = first;
-  for (std::size_t s = start; s < end; ++s) {
-    std::size_t e = static_cast<std::size_t>(list.row_first[s]);
-    for (const Neighbour& q : rows.of(s - start)) {
-      if (!inside(q.slot) || q.id > in.id[s]) {
-        list.own[p] = static_cast<std::uint16_t>(s - start);
-        list.partner[p] = q.slot;
-        list.row[e].code = static_cast<std::uint32_t>(p - first);
-        ++p;
-      }
-      ++e;
-    }
-  }
+  order_pairs(list, in, block);
   for (std::size_t s = start; s < end; ++s) {
     std::size_t e = static_cast<std::size_t>(list.row_first[s]);
     for (const Neighbour& q : rows.of(s - start)) {
@@ -114,6 +123,7 @@ void PairListBuilder::fill_block(PairList& list, const PairListInput& in, std::s
       ++e;
     }
   }
+  list.contacts[block].sides = 0;
   list.contacts[block].used = 0;
   list.contacts[block].vacant.clear();
   for (std::size_t s = start; s < end; ++s) carry(list, in, block, s);
@@ -129,7 +139,7 @@ void PairListBuilder::carry(PairList& list, const PairListInput& in, std::size_t
   for (std::size_t k = 0; k < row.size(); ++k) {
     if (list.row[e0 + k].second()) continue;
     for (; from < from_end; ++from)
-      if (old.row_touching[from] && old.id[old.other(was, old.row[from])] >= row[k].id) break;
+      if (old.touching[old.pair_of(was, old.row[from])] && old.id[old.other(was, old.row[from])] >= row[k].id) break;
     if (from == from_end) return;
     if (old.id[old.other(was, old.row[from])] != row[k].id) continue;
     const ContactHistory& h = old.history_of(PairList::block_of(was), old.pair_of(was, old.row[from]));

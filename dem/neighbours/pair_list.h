@@ -6,9 +6,10 @@
 /// So a block computes the forces on its grains from nothing but positions and velocities of its surroundings, no force ever goes through memory,
 /// and only the pairs across block borders (about a quarter) are computed twice.
 ///
-/// Each grain has a row of its pairs, sorted by the partner's id: the order in which forces are summed, whatever the list. Beside every entry stands a
-/// byte that says whether the pair touches, so that a grain finds its contacts without looking at the others. Histories are kept for touching pairs only,
-/// densely from the start of the block's part of `history`.
+/// The pairs of a block stand in the order of their ids (the lower, then the higher). Adding up forces in this order gives every grain its contacts in
+/// ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Each grain also
+/// has a row of its pairs, sorted by the partner's id, by which histories go from the old list to the new one. Histories are kept for touching pairs
+/// only, densely from the start of the block's part of `history`.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,6 +39,7 @@ inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, h.c
 struct BlockContacts {
   std::uint32_t used = 0;           ///< places taken so far; all below are in use or in `vacant`
   std::vector<std::uint32_t> vacant;
+  std::int64_t sides = 0;           ///< touching grains of the block, once for each contact
   std::uint32_t take() {
     if (vacant.empty()) return used++;
     const std::uint32_t k = vacant.back();
@@ -56,7 +58,6 @@ struct PairList {
   std::vector<BlockContacts> contacts;     ///< [block]
   std::vector<std::int32_t> row_first;     ///< [slot + 1]
   RawArray<RowEntry> row;                  ///< [entry] by ascending id of the partner
-  RawArray<std::uint8_t> row_touching;     ///< [entry + padding]
   RawArray<std::int64_t> id;               ///< [slot]
 
   std::size_t grain_count() const { return row_first.empty() ? 0 : row_first.size() - 1; }
@@ -73,13 +74,13 @@ struct PairList {
   const ContactHistory& history_of(std::size_t block, std::size_t pair) const {
     return history[static_cast<std::size_t>(block_first[block]) + place[pair]];
   }
-  /// Starts (with this history) or ends a contact: marks it in the pair, in the rows of its grains inside the block, and takes or frees its place.
+  /// Starts (with this history) or ends a contact: marks the pair, takes or frees a place.
   void start(std::size_t block, std::size_t pair, const ContactHistory& h);
   void end(std::size_t block, std::size_t pair);
   void resize(std::size_t pairs, std::size_t entries);
 
  private:
-  void mark(std::size_t block, std::size_t pair, std::uint8_t touches);
+  int sides(std::size_t block, std::size_t pair) const { return block_of(static_cast<std::size_t>(partner[pair])) == block ? 2 : 1; }
 };
 
 struct PairListInput {
@@ -116,6 +117,7 @@ class PairListBuilder {
   };
   static void find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out);
   void fill_block(PairList& list, const PairListInput& in, std::size_t block) const;
+  void order_pairs(PairList& list, const PairListInput& in, std::size_t block) const;
   void carry(PairList& list, const PairListInput& in, std::size_t block, std::size_t slot) const;
 
   PairList spare_;

@@ -66,14 +66,14 @@ void evaluate(Simulation::Impl& sim, const LawTable<L>& table, const PairView& v
   if (sim.setup.track_energy && dt > 0) account<L>(v, batch, pair, count, dt, book);
   evaluate_batch(static_cast<const L*>(nullptr), batch, lanes, dt);
   constexpr double kBelow = 1 - 1e-12;  // rounding of the comparison must not decide: the maximum is the same in any order
-  for (std::uint32_t deep = store_lanes(v, pair, count, batch, kBelow * book.overlap); deep != 0; deep &= deep - 1) {
+  for (std::uint32_t deep = add_lanes(v, pair, count, batch, kBelow * book.overlap); deep != 0; deep &= deep - 1) {
     const int l = std::countr_zero(deep);
     book.overlap = std::max(book.overlap, batch.overlap[l] / std::min(batch.radius_i[l], batch.radius_j[l]));
   }
 }
 }  // namespace
 
-PairView Simulation::Impl::pair_view(std::size_t b, PairForce* force) {
+PairView Simulation::Impl::pair_view(std::size_t b, LoadRow* sum, LoadRow* kept) {
   const std::size_t first = static_cast<std::size_t>(pairs.block_first[b]);
   PairView v{sphere.data(),
              motion.data(),
@@ -83,7 +83,8 @@ PairView Simulation::Impl::pair_view(std::size_t b, PairForce* force) {
              pairs.touching.data() + first,
              pairs.place.data() + first,
              pairs.history.data() + first,
-             force,
+             sum,
+             kept,
              {box.length[0], box.length[1], box.length[2]},
              {},
              box.periodic(0) || box.periodic(1) || box.periodic(2)};
@@ -92,13 +93,13 @@ PairView Simulation::Impl::pair_view(std::size_t b, PairForce* force) {
 }
 
 template <class L>
-void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, PassClock* clock) {
+void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, LoadRow* kept, PassClock* clock) {
   PairList& list = sim.pairs;
   BlockBook& book = sim.books[b];
   book.overlap = book.wall_work = 0, book.contact_sides = book.wall_contacts = 0, book.loss = {};
   const std::size_t first = static_cast<std::size_t>(list.block_first[b]), pairs = static_cast<std::size_t>(list.block_first[b + 1]) - first;
-  if (scratch.force.size() < pairs) scratch.force.resize(pairs);
-  const PairView v = sim.pair_view(b, scratch.force.data());
+  std::fill(std::begin(scratch.sum), std::end(scratch.sum), LoadRow());
+  const PairView v = sim.pair_view(b, scratch.sum, kept);
   double t = clock ? omp_get_wtime() : 0;
   auto lap = [&](double PassClock::* part) {
     if (!clock) return;
@@ -126,17 +127,13 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
   }
   book.wall.assign(sim.walls.size(), WallLoad());
   const std::size_t start = PairList::block_start(b), end = sim.block_end(b);
-  for (std::int32_t e = list.row_first[start]; e < list.row_first[end]; ++e) book.contact_sides += list.row_touching[static_cast<std::size_t>(e)];
-  scratch.on_walls.resize(static_cast<std::size_t>(kGrainsPerBlock));
-  for (std::size_t s = start; s < end; ++s) {
-    LoadRow& row = scratch.on_walls[s - start];
-    row = {};
-    if (sim.wall_list.first[s] < sim.wall_list.first[s + 1]) sim.wall_forces(table, s, dt, book, scratch.wall, row);
-  }
+  for (std::size_t s = start; s < end; ++s)
+    if (sim.wall_list.first[s] < sim.wall_list.first[s + 1]) sim.wall_forces(table, s, dt, book, scratch.wall, scratch.sum[s - start]);
+  book.contact_sides = list.contacts[b].sides;
   lap(&PassClock::walls);
 }
-template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, PassClock*);
-template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, LoadRow*, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, LoadRow*, PassClock*);
 
 void prepare_batch(const Simulation::Impl& sim, PairBatch& batch) {
   std::visit(

@@ -12,8 +12,7 @@ namespace venato::dem {
 struct BlockScratch {
   PairBatch batch;
   PairChunk touching, changed;
-  std::vector<PairForce> force;
-  std::vector<LoadRow> on_walls;
+  LoadRow sum[kGrainsPerBlock + 1];  ///< forces on the block's grains; the last takes what belongs to other blocks
   std::vector<WallContact> wall;
   FetchAhead ahead;
 };
@@ -27,7 +26,8 @@ struct PassClock {
 void prepare_batch(const Simulation::Impl& sim, PairBatch& batch);
 
 /// Forces on the grains of block b by pairs and walls, histories advanced by dt (0: forces only). Fills book and wall contacts.
-/// scratch.force [place] and scratch.on_walls [grain of the block] hold the forces afterwards.
+/// scratch.sum holds the forces afterwards: pairs in ascending order of the partners' ids, then walls.
+/// \param kept [place] out: forces on the pairs' first grains; null: not wanted
 template <class L>
-void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, PassClock* clock);
+void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, LoadRow* kept, PassClock* clock);
 }  // namespace venato::dem

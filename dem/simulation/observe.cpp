@@ -95,7 +95,7 @@ std::vector<ContactState> Simulation::contacts() const {
   std::vector<ContactState> all;
   for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, std::size_t force) {
     const ContactGeometry g = resting_geometry(e, i, j);
-    const Load& f = e.kept_force[force];
+    const Load f = e.kept_force[force].load();
     const Trio across_n = across(f.force, g.normal);
     const Trio rolling = f.torque - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.force);
     all.push_back({e.card[i].id, e.card[j].id, -1, g.overlap, to_vec3(g.normal), -dot(f.force, g.normal), to_vec3(h.spring), to_vec3(across_n),
@@ -232,8 +232,8 @@ double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_s
     const Vec3 p = e.wrapped(Vec3(x.x, x.y, x.z));
     if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
     bool touches = e.wall_list.contact_count[s] > 0;
-    const std::uint8_t *mark = e.pairs.row_touching.data() + e.pairs.row_first[s], *end = e.pairs.row_touching.data() + e.pairs.row_first[s + 1];
-    touches = touches || std::find(mark, end, std::uint8_t{1}) != end;
+    for (std::int32_t k = e.pairs.row_first[s]; k < e.pairs.row_first[s + 1] && !touches; ++k)
+      touches = e.pairs.touching[e.pairs.pair_of(s, e.pairs.row[static_cast<std::size_t>(k)])] != 0;
     if (touches) top = x.z;
   }
   return top;

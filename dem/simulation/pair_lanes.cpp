@@ -178,34 +178,6 @@ void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBat
   }
 }
 
-std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
-  const D d;
-  auto* history = reinterpret_cast<double*>(v.history);
-  std::uint32_t deep = 0;
-  for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
-    double *h[kLanes], *first[kLanes], *second[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
-      const std::size_t k = v.place[pair[std::min(g + l, count - 1)]];
-      h[l] = history + 8 * k, first[l] = v.force[k].first.v, second[l] = v.force[k].second.v;
-    }
-    V c[8];
-    for (int k = 0; k < 8; ++k) c[k] = hn::Load(d, b.history[k] + g);
-    store_rows8(c, h);
-    c[0] = hn::Load(d, b.force_x + g), c[1] = hn::Load(d, b.force_y + g), c[2] = hn::Load(d, b.force_z + g);
-    c[3] = hn::Load(d, b.torque_i_x + g), c[4] = hn::Load(d, b.torque_i_y + g), c[5] = hn::Load(d, b.torque_i_z + g);
-    c[6] = c[7] = hn::Zero(d);
-    store_rows8(c, first);
-    for (int k = 0; k < 3; ++k) c[k] = hn::Neg(c[k]);  // Newton's third law
-    c[3] = hn::Load(d, b.torque_j_x + g), c[4] = hn::Load(d, b.torque_j_y + g), c[5] = hn::Load(d, b.torque_j_z + g);
-    store_rows8(c, second);
-    const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
-    std::uint8_t mask[8] = {};
-    hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);
-    deep |= static_cast<std::uint32_t>(mask[0]) << g;
-  }
-  return deep;
-}
-
 constexpr int kParts = 8 / kLanes;  // vectors of a LoadRow or Motion
 struct Row8 {
   V part[kParts];
@@ -215,32 +187,44 @@ HWY_INLINE Row8 load_row(const double* p) {
   for (int k = 0; k < kParts; ++k) r.part[k] = hn::Load(D(), p + k * kLanes);
   return r;
 }
-HWY_INLINE void add_row(Row8& sum, const double* p) {
-  for (int k = 0; k < kParts; ++k) sum.part[k] = hn::Add(sum.part[k], hn::Load(D(), p + k * kLanes));
-}
-HWY_INLINE Row8 grain_sum(const MoveView& v, std::size_t s, std::size_t start) {
-  Row8 sum;
-  for (int k = 0; k < kParts; ++k) sum.part[k] = hn::Zero(D());
-  const std::int32_t first = v.row_first[s], last = v.row_first[s + 1];
-  for (std::int32_t k = first; k < last; k += 8) {
-    std::uint64_t word;
-    std::memcpy(&word, v.row_touching + k, 8);  // the lists are padded
-    if (last - k < 8) word &= (std::uint64_t{1} << (8 * (last - k))) - 1;
-    for (; word != 0; word &= word - 1) {
-      const RowEntry entry = v.row[static_cast<std::size_t>(k) + static_cast<std::size_t>(std::countr_zero(word)) / 8];
-      const auto* pair = reinterpret_cast<const double*>(v.force + v.place[entry.pair()]);
-      add_row(sum, pair + (entry.second() ? 8 : 0));
-    }
-  }
-  add_row(sum, v.extra[s - start].v);
-  return sum;
+HWY_INLINE void add_row(double* sum, const double* p) {
+  for (int k = 0; k < kParts; ++k) hn::Store(hn::Add(hn::Load(D(), sum + k * kLanes), hn::Load(D(), p + k * kLanes)), D(), sum + k * kLanes);
 }
 
-void sum_forces(const MoveView& v, std::size_t start, std::size_t end, LoadRow* out) {
-  for (std::size_t s = start; s < end; ++s) {
-    const Row8 sum = grain_sum(v, s, start);
-    for (int k = 0; k < kParts; ++k) hn::Store(sum.part[k], D(), out[s - start].v + k * kLanes);
+std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
+  const D d;
+  auto* history = reinterpret_cast<double*>(v.history);
+  std::uint32_t deep = 0;
+  for (int g = 0; g < count; g += kLanes) {
+    const int valid = std::min(kLanes, count - g);
+    double* h[kLanes];
+    for (int l = 0; l < kLanes; ++l) h[l] = history + 8 * std::size_t{v.place[pair[std::min(g + l, count - 1)]]};
+    V c[8];
+    for (int k = 0; k < 8; ++k) c[k] = hn::Load(d, b.history[k] + g);
+    store_rows8(c, h);
+    alignas(64) LoadRow first[kLanes], second[kLanes];
+    double *to_first[kLanes], *to_second[kLanes];
+    for (int l = 0; l < kLanes; ++l) to_first[l] = first[l].v, to_second[l] = second[l].v;
+    c[0] = hn::Load(d, b.force_x + g), c[1] = hn::Load(d, b.force_y + g), c[2] = hn::Load(d, b.force_z + g);
+    c[3] = hn::Load(d, b.torque_i_x + g), c[4] = hn::Load(d, b.torque_i_y + g), c[5] = hn::Load(d, b.torque_i_z + g);
+    c[6] = c[7] = hn::Zero(d);
+    store_rows8(c, to_first);
+    for (int k = 0; k < 3; ++k) c[k] = hn::Neg(c[k]);  // Newton's third law
+    c[3] = hn::Load(d, b.torque_j_x + g), c[4] = hn::Load(d, b.torque_j_y + g), c[5] = hn::Load(d, b.torque_j_z + g);
+    store_rows8(c, to_second);
+    for (int l = 0; l < valid; ++l) {
+      const std::size_t p = pair[g + l], i = v.own[p], j = v.second(p) - v.block_start;
+      add_row(v.sum[i].v, first[l].v);
+      add_row(v.sum[std::min(j, static_cast<std::size_t>(kGrainsPerBlock))].v, second[l].v);
+    }
+    if (v.kept != nullptr)
+      for (int l = 0; l < valid; ++l) v.kept[v.place[pair[g + l]]] = first[l];
+    const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
+    std::uint8_t mask[8] = {};
+    hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);
+    deep |= (static_cast<std::uint32_t>(mask[0]) & ((1u << valid) - 1)) << g;
   }
+  return deep;
 }
 
 /// v += (half / m) F + half g, w += (half / I) T; the inverse mass and inertia that stand behind them get zeros.
@@ -259,8 +243,8 @@ void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook
     const Sphere& from = v.sphere[s];
     const double inverse_mass = v.motion[s].inverse_mass, inverse_inertia = v.motion[s].inverse_inertia;
     Row8 m = load_row(reinterpret_cast<const double*>(v.motion + s)), load, rate;
-    if (v.force != nullptr) {
-      load = grain_sum(v, s, start);
+    if (v.sum != nullptr) {
+      load = load_row(v.sum[s - start].v);
     } else {
       const Load& l = v.load[s];
       LoadRow row;
@@ -271,7 +255,7 @@ void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook
     for (int k = 0; k < kParts; ++k)
       rate.part[k] = hn::Add(hn::Mul(hn::Set(d, half * inverse_mass), force_lanes.part[k]), hn::Mul(hn::Set(d, half * inverse_inertia), torque_lanes.part[k]));
     const Row8& fall_here = inverse_mass > 0 ? falls : rests;
-    if (v.force != nullptr) kick(m, load, rate, fall_here);
+    if (v.sum != nullptr) kick(m, load, rate, fall_here);
     kick(m, load, rate, fall_here);
     auto* motion = reinterpret_cast<double*>(v.next_motion + s);
     for (int k = 0; k < kParts; ++k) hn::Store(m.part[k], d, motion + k * kLanes);
@@ -296,17 +280,15 @@ HWY_AFTER_NAMESPACE();
 namespace venato::dem {
 HWY_EXPORT(find_touching);
 HWY_EXPORT(load_lanes);
-HWY_EXPORT(store_lanes);
-HWY_EXPORT(sum_forces);
+HWY_EXPORT(add_lanes);
 HWY_EXPORT(move_grains);
 void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
   HWY_DYNAMIC_DISPATCH(find_touching)(v, from, to, now, changed);
 }
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) { HWY_DYNAMIC_DISPATCH(load_lanes)(v, pair, count, b); }
-void sum_forces(const MoveView& v, std::size_t start, std::size_t end, LoadRow* out) { HWY_DYNAMIC_DISPATCH(sum_forces)(v, start, end, out); }
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) { HWY_DYNAMIC_DISPATCH(move_grains)(v, start, end, book); }
-std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
-  return HWY_DYNAMIC_DISPATCH(store_lanes)(v, pair, count, b, watch);
+std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
+  return HWY_DYNAMIC_DISPATCH(add_lanes)(v, pair, count, b, watch);
 }
 }  // namespace venato::dem
 #endif

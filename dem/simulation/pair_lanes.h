@@ -26,11 +26,6 @@ struct alignas(64) LoadRow {
   double v[8] = {};
   Load load() const { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
 };
-/// What one pair does to its two grains.
-struct PairForce {
-  LoadRow first, second;
-};
-
 /// One block's lists, and the grains, as the vector code sees them. Pairs count from the block's first.
 struct PairView {
   const Sphere* sphere;
@@ -41,7 +36,8 @@ struct PairView {
   const std::uint8_t* touching;
   const std::uint32_t* place;
   ContactHistory* history;  ///< [place]
-  PairForce* force;         ///< [place]
+  LoadRow* sum;             ///< [grain of the block, and one more for grains of other blocks] forces are added to it
+  LoadRow* kept;            ///< [place] out: on the first grain; null: not wanted
   double length[3], inverse_length[3];  ///< of the periodic box; 0 = not periodic
   bool periodic;
   std::size_t first(std::size_t pair) const { return block_start + own[pair]; }
@@ -65,7 +61,7 @@ void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChun
 /// Fills the first `count` lanes (1 … kBatchWidth) of the batch with the touching pairs, and those up to the next multiple of 8 with the last of them.
 /// Materials (b.parameter) and pairs of two frozen grains are the caller's.
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b);
-/// A block's grains and their rows, for summing forces and moving the grains on.
+/// A block's grains, for moving them on.
 struct MoveView {
   const Sphere* sphere;
   const Motion* motion;
@@ -73,13 +69,8 @@ struct MoveView {
   Motion* next_motion;
   const Anchor* anchor;
   std::size_t anchored;  ///< slots below have an anchor
-  const std::int32_t* row_first;
-  const RowEntry* row;
-  const std::uint8_t* row_touching;
-  const std::uint32_t* place;  ///< [pair of the block]
-  const PairForce* force;      ///< [place]; null: take loads instead
-  const LoadRow* extra;        ///< [grain of the block] walls
-  const Load* load;            ///< [slot]
+  const LoadRow* sum;  ///< [grain of the block] forces; null: take `load` instead
+  const Load* load;    ///< [slot]
   double time_step, listed_for;
   LoadRow gravity;  ///< (g, 0)
   double snap[4];
@@ -90,11 +81,9 @@ struct MoveBook {
   std::size_t fastest = ~std::size_t{0};  ///< slot; all ones = nobody moves
 };
 
-/// Sum of a grain's pairs in ascending order of the partners' ids, then `extra`.
-void sum_forces(const MoveView& v, std::size_t start, std::size_t end, LoadRow* out);
 /// Second half kick of the last step (if forces are given), first half kick of this one, drift: start … end - 1 from sphere, motion to next_*.
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book);
 
-/// Puts histories and forces back. \return lanes (one bit each) whose overlap is above `watch` radii of the smaller grain
-std::uint32_t store_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch);
+/// Puts histories back and adds the forces to the sums, contact by contact in their order. \return lanes (one bit each) whose overlap is above `watch` radii of the smaller grain
+std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch);
 }  // namespace venato::dem

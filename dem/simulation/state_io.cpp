@@ -13,7 +13,7 @@ template <class Archive, class Impl>
 void exchange(Archive& a, Impl& e) {
   a.list(e.sphere), a.list(e.motion), a.list(e.load), a.list(e.card), a.list(e.slot_of_id);
   a.list(e.pairs.block_first), a.raw(e.pairs.own), a.raw(e.pairs.partner), a.raw(e.pairs.touching);
-  a.list(e.pairs.row_first), a.raw(e.pairs.row), a.raw(e.pairs.row_touching), a.raw(e.pairs.id);
+  a.list(e.pairs.row_first), a.raw(e.pairs.row), a.raw(e.pairs.id);
   a.list(e.wall_list.first), a.list(e.wall_list.candidate), a.list(e.wall_list.triangle);
   a.list(e.wall_list.contact_first), a.list(e.wall_list.contact_count), a.list(e.wall_list.contact);
   a.list(e.anchor), a.list(e.reach), a.value(e.list_life_s), a.value(e.farthest_m), a.value(e.listed), a.value(e.list_valid);
@@ -55,7 +55,7 @@ void Simulation::load_state(std::span<const std::uint8_t> bytes) {
   for (std::size_t b = 0; b < e.pairs.contacts.size(); ++b)
     for (std::size_t p = first_pair(e, b); p < first_pair(e, b + 1); ++p) {
       if (!e.pairs.touching[p]) continue;
-      e.pairs.place[p] = e.pairs.contacts[b].take();
+      e.pairs.start(b, p, ContactHistory{});
       r.value(e.pairs.history_of(b, p)), r.value(e.kept_force[first_pair(e, b) + e.pairs.place[p]]);
     }
   for (std::size_t k = 0; k < e.walls.size(); ++k) {

@@ -100,12 +100,8 @@ void Simulation::Impl::keep_forces(double dt) {
 #pragma omp for schedule(dynamic, 1)
           for (std::int64_t i = 0; i < nb; ++i) {
             const std::size_t b = static_cast<std::size_t>(i);
-            block_forces(*this, table, dt, b, mine, nullptr);
-            for (std::uint32_t k = 0; k < pairs.contacts[b].used; ++k)
-              kept_force[static_cast<std::size_t>(pairs.block_first[b]) + k] = mine.force[k].first.load();
-            LoadRow sum[kGrainsPerBlock];
-            sum_forces(move_view(b, mine), PairList::block_start(b), block_end(b), sum);
-            for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = sum[s - PairList::block_start(b)].load();
+            block_forces(*this, table, dt, b, mine, kept_force.data() + pairs.block_first[b], nullptr);
+            for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = mine.sum[s - PairList::block_start(b)].load();
           }
         }
       },
@@ -133,17 +129,13 @@ void Simulation::Impl::note_crossings(std::size_t block) {
   }
 }
 
-MoveView Simulation::Impl::move_view(std::size_t block, BlockScratch& mine) {
+MoveView Simulation::Impl::move_view(const BlockScratch& mine) const {
   MoveView v{};
-  v.sphere = sphere.data(), v.motion = motion.data(), v.next_sphere = next_sphere.data(), v.next_motion = next_motion.data();
-  v.anchor = anchor.data(), v.anchored = std::min(anchor.size(), sphere.size());
+  v.sphere = sphere.data(), v.motion = motion.data(), v.anchor = anchor.data(), v.anchored = std::min(anchor.size(), sphere.size());
   v.load = load.data();
   v.time_step = setup.time_step_s, v.listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
   for (int a = 0; a < 3; ++a) v.gravity.v[a] = setup.gravity_m_s2[a], v.snap[a] = snap[static_cast<std::size_t>(a)];
-  if (block + 1 >= pairs.block_first.size()) return v;  // no list yet: loads only
-  v.row_first = pairs.row_first.data(), v.row = pairs.row.data(), v.row_touching = pairs.row_touching.data();
-  v.place = pairs.place.data() + pairs.block_first[block];
-  v.force = mine.force.data(), v.extra = mine.on_walls.data();
+  v.sum = pending ? mine.sum : nullptr;
   return v;
 }
 
@@ -157,8 +149,6 @@ void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
   ahead.add(sphere.data() + s, n), ahead.add(motion.data() + s, n);
   ahead.add(pairs.own.data() + first, count), ahead.add(pairs.touching.data() + first, count), ahead.add(pairs.place.data() + first, count);
   ahead.add(pairs.history.data() + first, pairs.contacts[block].used);
-  const std::size_t row = static_cast<std::size_t>(pairs.row_first[s]), row_end = static_cast<std::size_t>(pairs.row_first[s + n]);
-  ahead.add(pairs.row_touching.data() + row, row_end - row), ahead.add(pairs.row.data() + row, row_end - row);
   ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
   ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
   if (block + 1 < nb)
@@ -187,15 +177,15 @@ void Simulation::Impl::advance() {
             const bool clocked = i % kClockedBlocks == 0;
             if (pending) {
               fetch_block(mine.ahead, b + 1);
-              block_forces(*this, table, setup.time_step_s, b, mine, clocked ? &clock : nullptr);
+              block_forces(*this, table, setup.time_step_s, b, mine, nullptr, clocked ? &clock : nullptr);
             }
             const double t = clocked ? omp_get_wtime() : 0;
-            MoveView v = move_view(b, mine);
-            if (!pending) v.force = nullptr;
+            MoveView v = move_view(mine);
+            v.next_sphere = next_sphere.data(), v.next_motion = next_motion.data();
             MoveBook moved;
             for (std::size_t s = start; s < end; s += kGrainsPerFetch) {
               move_grains(v, s, std::min(end, s + kGrainsPerFetch), moved);
-              v.extra += kGrainsPerFetch;
+              if (pending) v.sum += kGrainsPerFetch;
               if (pending) mine.ahead.some(kLinesPerFetch);
             }
             if (pending) mine.ahead.rest();

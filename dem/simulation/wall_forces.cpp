@@ -52,6 +52,7 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
   const Vec3 centre = wrapped(Vec3(x.x, x.y, x.z));
   std::uint32_t taken = 0;
   scratch.clear();
+  LoadRow walls_sum;  // added at the end, so that the grain's sum is pairs, then walls
   for (std::int32_t k = wall_list.first[s]; k < wall_list.first[s + 1]; ++k) {
     const WallCandidate& c = wall_list.candidate[static_cast<std::size_t>(k)];
     const WallModel& w = walls[static_cast<std::size_t>(c.wall)];
@@ -70,7 +71,7 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
       now.on_grain = now.force.tangential - now.force.normal * n;
       now.torque_on_grain = x.r * cross(n, now.force.tangential) + now.force.rolling;
       const Trio &f = now.on_grain, &t_on = now.torque_on_grain;
-      sum.v[0] += f.x, sum.v[1] += f.y, sum.v[2] += f.z, sum.v[3] += t_on.x, sum.v[4] += t_on.y, sum.v[5] += t_on.z;
+      walls_sum.v[0] += f.x, walls_sum.v[1] += f.y, walls_sum.v[2] += f.z, walls_sum.v[3] += t_on.x, walls_sum.v[4] += t_on.y, walls_sum.v[5] += t_on.z;
       const Vec3 on_wall = -to_vec3(now.on_grain);
       book.wall[static_cast<std::size_t>(c.wall)].force_n += on_wall;
       book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
@@ -87,6 +88,7 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
       scratch.push_back(now);
     }
   }
+  for (int k = 0; k < 6; ++k) sum.v[k] += walls_sum.v[k];
   std::copy(scratch.begin(), scratch.end(), row);
   wall_list.contact_count[s] = static_cast<std::uint8_t>(scratch.size());
 }
