@@ -34,35 +34,36 @@ void PairList::end(std::size_t block, std::size_t pair) {
   contacts[block].sides -= sides(block, pair);
 }
 
-void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out) {
-  const std::size_t si = static_cast<std::size_t>(i);
+void PairListBuilder::find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search, std::vector<Neighbour>& out) {
+  const std::size_t si = static_cast<std::size_t>(i), begin = out.size();
   const Sphere s = in.spheres[si];
-  const Anchor a = in.anchor[si];
-  const double reach = in.reach[si], grown = s.r + static_cast<double>(a.allowance);
-  const bool wraps = in.box.periodic(0) || in.box.periodic(1) || in.box.periodic(2);
-  auto test = [&](std::int32_t from, std::int32_t to) {
-    for (std::int32_t j = from; j < to; ++j) {
-      const std::size_t sj = static_cast<std::size_t>(j);
-      const Sphere& t = in.spheres[sj];
-      double d[3] = {t.x - s.x, t.y - s.y, t.z - s.z};
-      if (wraps)
-        for (std::size_t k = 0; k < 3; ++k)  // wrapped already: at most one box length off
-          if (in.box.length[k] > 0) d[k] -= d[k] > 0.5 * in.box.length[k] ? in.box.length[k] : (d[k] < -0.5 * in.box.length[k] ? -in.box.length[k] : 0);
-      const double far = reach + in.reach[sj];
-      if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] >= far * far || j == i) continue;
-      const Anchor& b = in.anchor[sj];
-      if (!meet_within(d[0], d[1], d[2], static_cast<double>(b.drift_x) - static_cast<double>(a.drift_x),
-                       static_cast<double>(b.drift_y) - static_cast<double>(a.drift_y), static_cast<double>(b.drift_z) - static_cast<double>(a.drift_z),
-                       kRounding * (grown + (t.r + static_cast<double>(b.allowance))), in.life_s))
-        continue;
-      out.push_back({in.id[sj], j});
-    }
-  };
-  const std::size_t begin = out.size();
-  if (in.grid)
-    in.grid->for_runs_near(s.x, s.y, s.z, reach, test);
-  else
-    test(0, static_cast<std::int32_t>(in.spheres.size()));
+  const Anchor& a = in.anchor[si];
+  const double grown = s.r + static_cast<double>(a.allowance);
+  search.runs.clear();
+  std::size_t most = 0;
+  auto take = [&](std::int32_t from, std::int32_t to) { search.runs.emplace_back(from, to), most += static_cast<std::size_t>(to - from); };
+  std::size_t found = 0;
+  if (in.grid) {
+    in.grid->for_runs_near(s.x, s.y, s.z, in.reach[si], take);
+    if (search.near.size() < most + 16) search.near.resize(most + 16);
+    found = near_scan(field, i, search.runs, search.near.data());
+  } else {  // the slow obvious way, for tests: everybody, exactly
+    search.near.resize(in.spheres.size());
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(in.spheres.size()); ++j)
+      if (j != i) search.near[found++] = j;
+  }
+  for (std::size_t k = 0; k < found; ++k) {
+    const std::size_t sj = static_cast<std::size_t>(search.near[k]);
+    const Sphere& t = in.spheres[sj];
+    double d[3] = {t.x - s.x, t.y - s.y, t.z - s.z};
+    for (std::size_t c = 0; c < 3; ++c)  // wrapped already: at most one box length off
+      if (in.box.length[c] > 0) d[c] -= d[c] > 0.5 * in.box.length[c] ? in.box.length[c] : (d[c] < -0.5 * in.box.length[c] ? -in.box.length[c] : 0);
+    const Anchor& b = in.anchor[sj];
+    if (meet_within(d[0], d[1], d[2], static_cast<double>(b.drift_x) - static_cast<double>(a.drift_x),
+                    static_cast<double>(b.drift_y) - static_cast<double>(a.drift_y), static_cast<double>(b.drift_z) - static_cast<double>(a.drift_z),
+                    kRounding * (grown + (t.r + static_cast<double>(b.allowance))), in.life_s))
+      out.push_back({in.id[sj], search.near[k]});
+  }
   // Insertion sort: a dozen entries.
   for (std::size_t k = begin + 1; k < out.size(); ++k) {
     const Neighbour n = out[k];
@@ -72,13 +73,13 @@ void PairListBuilder::find_row(const PairListInput& in, std::int32_t i, std::vec
   }
 }
 
-/// Pairs of a block in the order of (lower id, higher id), with the rows' entries for their first grains. A grain's pairs with higher ids are one run of
-/// its row; pairs with a grain of another block that has the lower id come singly.
+/// Pairs of a block in the order of (lower id, higher id), with the rows' entries for their first grains. A grain's pairs with higher ids are one run
+/// of its row; pairs with a grain of another block that has the lower id come singly.
 void PairListBuilder::order_pairs(PairList& list, const PairListInput& in, std::size_t block) const {
   const BlockRows& rows = rows_[block];
   const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
   struct Run {
-    std::int64_t lower, higher;  // ids; higher is the first of the run
+    std::int64_t lower, higher;     // ids; higher is the first of the run
     std::uint32_t grain, from, to;  // entries of the grain's row
   };
   std::vector<Run> runs;
@@ -157,22 +158,26 @@ void PairListBuilder::rebuild(PairList& list, const PairListInput& in) {
   list.id.resize_for_overwrite(static_cast<std::size_t>(n));
   std::copy(in.id.begin(), in.id.end(), list.id.data());
   const int threads = in.threads;
+  const NearField field = make_near_field(in.spheres, in.reach, in.box, threads);
 
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-  for (std::int64_t b = 0; b < blocks; ++b) {
-    BlockRows& out = rows_[static_cast<std::size_t>(b)];
-    out.row.clear(), out.end.clear();
-    std::int32_t pairs = 0;
-    const std::int64_t start = b * kGrainsPerBlock, end = std::min(n, start + kGrainsPerBlock);
-    for (std::int64_t i = start; i < end; ++i) {
-      const std::size_t begin = out.row.size(), s = static_cast<std::size_t>(i);
-      find_row(in, static_cast<std::int32_t>(i), out.row);
-      out.end.push_back(static_cast<std::int32_t>(out.row.size()));
-      for (std::size_t k = begin; k < out.row.size(); ++k)
-        pairs += out.row[k].slot < start || out.row[k].slot >= end || out.row[k].id > in.id[s];
-      list.row_first[s + 1] = static_cast<std::int32_t>(out.row.size() - begin);
+#pragma omp parallel num_threads(threads) if (threads > 1)
+  {
+    Search search;
+#pragma omp for schedule(dynamic, 1)
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      BlockRows& out = rows_[static_cast<std::size_t>(b)];
+      out.row.clear(), out.end.clear();
+      std::int32_t pairs = 0;
+      const std::int64_t start = b * kGrainsPerBlock, end = std::min(n, start + kGrainsPerBlock);
+      for (std::int64_t i = start; i < end; ++i) {
+        const std::size_t begin = out.row.size(), s = static_cast<std::size_t>(i);
+        find_row(in, field, static_cast<std::int32_t>(i), search, out.row);
+        out.end.push_back(static_cast<std::int32_t>(out.row.size()));
+        for (std::size_t k = begin; k < out.row.size(); ++k) pairs += out.row[k].slot < start || out.row[k].slot >= end || out.row[k].id > in.id[s];
+        list.row_first[s + 1] = static_cast<std::int32_t>(out.row.size() - begin);
+      }
+      list.block_first[static_cast<std::size_t>(b) + 1] = pairs;
     }
-    list.block_first[static_cast<std::size_t>(b) + 1] = pairs;
   }
   for (std::size_t k = 1; k < list.row_first.size(); ++k) list.row_first[k] += list.row_first[k - 1];
   for (std::size_t k = 1; k < list.block_first.size(); ++k) list.block_first[k] += list.block_first[k - 1];

@@ -6,16 +6,17 @@
 /// So a block computes the forces on its grains from nothing but positions and velocities of its surroundings, no force ever goes through memory,
 /// and only the pairs across block borders (about a quarter) are computed twice.
 ///
-/// The pairs of a block stand in the order of their ids (the lower, then the higher). Adding up forces in this order gives every grain its contacts in
-/// ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Each grain also
-/// has a row of its pairs, sorted by the partner's id, by which histories go from the old list to the new one. Histories are kept for touching pairs
-/// only, densely from the start of the block's part of `history`.
+/// The pairs of a block stand in the order of their ids (the lower, then the higher). Adding up forces in this order gives every grain its contacts
+/// in ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Each grain
+/// also has a row of its pairs, sorted by the partner's id, by which histories go from the old list to the new one. Histories are kept for touching
+/// pairs only, densely from the start of the block's part of `history`.
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "dem/contact/kernels/contact_types.h"
 #include "dem/neighbours/cell_grid.h"
+#include "dem/neighbours/near_scan.h"
 #include "dem/neighbours/raw_array.h"
 #include "dem/neighbours/reach_plan.h"
 
@@ -37,9 +38,9 @@ struct RowEntry {
 inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, h.contact_radius, -h.rolling, h.plastic}; }
 
 struct BlockContacts {
-  std::uint32_t used = 0;           ///< places taken so far; all below are in use or in `vacant`
+  std::uint32_t used = 0;  ///< places taken so far; all below are in use or in `vacant`
   std::vector<std::uint32_t> vacant;
-  std::int64_t sides = 0;           ///< touching grains of the block, once for each contact
+  std::int64_t sides = 0;  ///< touching grains of the block, once for each contact
   std::uint32_t take() {
     if (vacant.empty()) return used++;
     const std::uint32_t k = vacant.back();
@@ -49,16 +50,16 @@ struct BlockContacts {
 };
 
 struct PairList {
-  std::vector<std::int32_t> block_first;   ///< [block + 1] pairs of each block; also where its part of `history` starts
-  RawArray<std::uint16_t> own;             ///< [pair + padding] first grain, counted from the block's first
-  RawArray<std::int32_t> partner;          ///< [pair + padding] slot of the second grain
-  RawArray<std::uint8_t> touching;         ///< [pair + padding] 1 or 0
-  RawArray<std::uint32_t> place;           ///< [pair] of the history in the block's part, while touching
-  RawArray<ContactHistory> history;        ///< [block_first + place]
-  std::vector<BlockContacts> contacts;     ///< [block]
-  std::vector<std::int32_t> row_first;     ///< [slot + 1]
-  RawArray<RowEntry> row;                  ///< [entry] by ascending id of the partner
-  RawArray<std::int64_t> id;               ///< [slot]
+  std::vector<std::int32_t> block_first;  ///< [block + 1] pairs of each block; also where its part of `history` starts
+  RawArray<std::uint16_t> own;            ///< [pair + padding] first grain, counted from the block's first
+  RawArray<std::int32_t> partner;         ///< [pair + padding] slot of the second grain
+  RawArray<std::uint8_t> touching;        ///< [pair + padding] 1 or 0
+  RawArray<std::uint32_t> place;          ///< [pair] of the history in the block's part, while touching
+  RawArray<ContactHistory> history;       ///< [block_first + place]
+  std::vector<BlockContacts> contacts;    ///< [block]
+  std::vector<std::int32_t> row_first;    ///< [slot + 1]
+  RawArray<RowEntry> row;                 ///< [entry] by ascending id of the partner
+  RawArray<std::int64_t> id;              ///< [slot]
 
   std::size_t grain_count() const { return row_first.empty() ? 0 : row_first.size() - 1; }
   std::size_t pair_count() const { return block_first.empty() ? 0 : static_cast<std::size_t>(block_first.back()); }
@@ -115,7 +116,11 @@ class PairListBuilder {
       return {row.data() + begin, static_cast<std::size_t>(end[k]) - begin};
     }
   };
-  static void find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out);
+  struct Search {  ///< working memory of one thread
+    std::vector<std::pair<std::int32_t, std::int32_t>> runs;
+    std::vector<std::int32_t> near;
+  };
+  static void find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search, std::vector<Neighbour>& out);
   void fill_block(PairList& list, const PairListInput& in, std::size_t block) const;
   void order_pairs(PairList& list, const PairListInput& in, std::size_t block) const;
   void carry(PairList& list, const PairListInput& in, std::size_t block, std::size_t slot) const;

@@ -12,12 +12,12 @@ namespace venato::dem {
 namespace {
 // Allowances in radii: what the plan aims at for a typical grain, and the least (rounding, vibration of a resting bed).
 constexpr double kAim = 0.14, kLeast = 0.02;
-constexpr double kFast = 3;            // faster than this many rms: flies on its own path
-constexpr double kShear = 0.25;        // part of the velocity difference between neighbouring cells that counts as fluctuation
-constexpr double kMostFall = 0.1;      // of a radius: what gravity may do within one life
+constexpr double kFast = 3;                       // faster than this many rms: flies on its own path
+constexpr double kShear = 0.25;                   // part of the velocity difference between neighbouring cells that counts as fluctuation
+constexpr double kMostFall = 0.1;                 // of a radius: what gravity may do within one life
 constexpr double kShortest = 8, kLongest = 2000;  // steps
-constexpr double kCellDiameters = 4;   // edge of the cells that velocities are averaged over
-constexpr double kMostPeriodic = 0.245;  // of a periodic length: a grain's reach, so that images cannot be confused
+constexpr double kCellDiameters = 4;              // edge of the cells that velocities are averaged over
+constexpr double kMostPeriodic = 0.245;           // of a periodic length: a grain's reach, so that images cannot be confused
 
 struct FlowCell {
   Trio mean;

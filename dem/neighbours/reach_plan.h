@@ -34,11 +34,11 @@ struct ReachExperience {
 };
 
 struct ReachInput {
-  std::span<const Sphere> spheres;    ///< wrapped into the box
-  std::span<const Trio> velocity;     ///< [m/s]
+  std::span<const Sphere> spheres;  ///< wrapped into the box
+  std::span<const Trio> velocity;   ///< [m/s]
   PeriodicBox box;
   double gravity_m_s2 = 0, time_step_s = 0;
-  double fixed_skin_m = 0;            ///< > 0: classical list
+  double fixed_skin_m = 0;  ///< > 0: classical list
   ReachExperience experience;
 };
 

@@ -101,7 +101,7 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
   std::fill(std::begin(scratch.sum), std::end(scratch.sum), LoadRow());
   const PairView v = sim.pair_view(b, scratch.sum, kept);
   double t = clock ? omp_get_wtime() : 0;
-  auto lap = [&](double PassClock::* part) {
+  auto lap = [&](double PassClock::*part) {
     if (!clock) return;
     const double now = omp_get_wtime();
     clock->*part += now - t, t = now;

@@ -1,6 +1,6 @@
 #pragma once
-/// One pass over a block of grains: which pairs touch, their forces, walls, sums. Everything that it writes belongs to the block, and what it reads of
-/// other blocks (positions, velocities) stands still meanwhile.
+/// One pass over a block of grains: which pairs touch, their forces, walls, sums. Everything that it writes belongs to the block, and what it reads
+/// of other blocks (positions, velocities) stands still meanwhile.
 #include <vector>
 
 #include "dem/simulation/fetch_ahead.h"

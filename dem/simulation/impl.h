@@ -122,7 +122,7 @@ struct Simulation::Impl {
   std::int64_t grains() const { return static_cast<std::int64_t>(sphere.size()); }
   std::int64_t blocks() const { return (grains() + kGrainsPerBlock - 1) / kGrainsPerBlock; }
   std::size_t block_end(std::size_t b) const { return std::min(PairList::block_start(b + 1), sphere.size()); }
-  BlockScratch& my_scratch();  ///< of the calling thread of a team
+  BlockScratch& my_scratch();                                                                          ///< of the calling thread of a team
   int team() const { return static_cast<int>(std::clamp<std::int64_t>(blocks(), 1, setup.threads)); }  ///< threads worth waking
   double time() const { return static_cast<double>(step_count) * setup.time_step_s; }
   std::size_t slot(GrainId id) const;  ///< \throws UsageError for an unknown id

@@ -105,7 +105,8 @@ void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) 
   }
   for (WallModel& w : walls) {
     w.pose_at_build = w.pose;
-    const double ahead = std::isfinite(list_life_s) ? pose_distance(w.wall.motion, w.pose, wall_pose(w.wall.motion, time() + list_life_s), w.reach_m) : 0.0;
+    const double ahead =
+        std::isfinite(list_life_s) ? pose_distance(w.wall.motion, w.pose, wall_pose(w.wall.motion, time() + list_life_s), w.reach_m) : 0.0;
     w.listed_way_m = std::max(kWallWay * r_sum / static_cast<double>(std::max<std::int64_t>(1, n)), std::isfinite(ahead) ? ahead : 0.0);
     const double farthest = reach_max + w.listed_way_m + w.swing_m;
     if (w.is_mesh() && !(w.bins.reach() >= farthest && w.bins.reach() < 2 * farthest)) w.bins.build(w.triangles, 1.3 * farthest);

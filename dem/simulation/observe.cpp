@@ -11,8 +11,17 @@ namespace {
 GrainState state_of(const Simulation::Impl& e, std::size_t s) {
   const Motion& m = e.motion[s];
   const GrainCard& c = e.card[s];
-  return {c.id,          e.unwrapped(s), to_vec3(m.velocity), to_vec3(m.spin), to_vec3(e.load[s].force) + c.mass * e.setup.gravity_m_s2,
-          to_vec3(e.load[s].torque), e.sphere[s].r, c.mass, c.species, c.material, c.frozen != 0};
+  return {c.id,
+          e.unwrapped(s),
+          to_vec3(m.velocity),
+          to_vec3(m.spin),
+          to_vec3(e.load[s].force) + c.mass * e.setup.gravity_m_s2,
+          to_vec3(e.load[s].torque),
+          e.sphere[s].r,
+          c.mass,
+          c.species,
+          c.material,
+          c.frozen != 0};
 }
 
 /// Slots of living grains by ascending id.
@@ -70,13 +79,14 @@ struct Hash {
 };
 }  // namespace
 
-std::size_t Simulation::grain_count() const {
-  return static_cast<std::size_t>(impl_->living);
-}
+std::size_t Simulation::grain_count() const { return static_cast<std::size_t>(impl_->living); }
 bool Simulation::has_grain(GrainId id) const {
   return id >= 0 && id < static_cast<GrainId>(impl_->slot_of_id.size()) && impl_->slot_of_id[static_cast<std::size_t>(id)] >= 0;
 }
-GrainState Simulation::grain(GrainId id) const { impl_->finish_step(); return state_of(*impl_, impl_->slot(id)); }
+GrainState Simulation::grain(GrainId id) const {
+  impl_->finish_step();
+  return state_of(*impl_, impl_->slot(id));
+}
 std::vector<GrainId> Simulation::grain_ids() const {
   std::vector<GrainId> ids;
   for (const std::size_t s : by_id(*impl_)) ids.push_back(impl_->card[s].id);

@@ -253,7 +253,8 @@ void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook
     }
     // Vectors from vectors: a row put together from numbers in memory would wait for them to arrive there.
     for (int k = 0; k < kParts; ++k)
-      rate.part[k] = hn::Add(hn::Mul(hn::Set(d, half * inverse_mass), force_lanes.part[k]), hn::Mul(hn::Set(d, half * inverse_inertia), torque_lanes.part[k]));
+      rate.part[k] =
+          hn::Add(hn::Mul(hn::Set(d, half * inverse_mass), force_lanes.part[k]), hn::Mul(hn::Set(d, half * inverse_inertia), torque_lanes.part[k]));
     const Row8& fall_here = inverse_mass > 0 ? falls : rests;
     if (v.sum != nullptr) kick(m, load, rate, fall_here);
     kick(m, load, rate, fall_here);

@@ -35,9 +35,9 @@ struct PairView {
   const std::int32_t* partner;
   const std::uint8_t* touching;
   const std::uint32_t* place;
-  ContactHistory* history;  ///< [place]
-  LoadRow* sum;             ///< [grain of the block, and one more for grains of other blocks] forces are added to it
-  LoadRow* kept;            ///< [place] out: on the first grain; null: not wanted
+  ContactHistory* history;              ///< [place]
+  LoadRow* sum;                         ///< [grain of the block, and one more for grains of other blocks] forces are added to it
+  LoadRow* kept;                        ///< [place] out: on the first grain; null: not wanted
   double length[3], inverse_length[3];  ///< of the periodic box; 0 = not periodic
   bool periodic;
   std::size_t first(std::size_t pair) const { return block_start + own[pair]; }
@@ -58,8 +58,8 @@ struct PairChunk {
 /// \param changed those whose mark in v.touching says something else
 void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed);
 
-/// Fills the first `count` lanes (1 … kBatchWidth) of the batch with the touching pairs, and those up to the next multiple of 8 with the last of them.
-/// Materials (b.parameter) and pairs of two frozen grains are the caller's.
+/// Fills the first `count` lanes (1 … kBatchWidth) of the batch with the touching pairs, and those up to the next multiple of 8 with the last of
+/// them. Materials (b.parameter) and pairs of two frozen grains are the caller's.
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b);
 /// A block's grains, for moving them on.
 struct MoveView {
@@ -69,8 +69,8 @@ struct MoveView {
   Motion* next_motion;
   const Anchor* anchor;
   std::size_t anchored;  ///< slots below have an anchor
-  const LoadRow* sum;  ///< [grain of the block] forces; null: take `load` instead
-  const Load* load;    ///< [slot]
+  const LoadRow* sum;    ///< [grain of the block] forces; null: take `load` instead
+  const Load* load;      ///< [slot]
   double time_step, listed_for;
   LoadRow gravity;  ///< (g, 0)
   double snap[4];
@@ -84,6 +84,7 @@ struct MoveBook {
 /// Second half kick of the last step (if forces are given), first half kick of this one, drift: start … end - 1 from sphere, motion to next_*.
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book);
 
-/// Puts histories back and adds the forces to the sums, contact by contact in their order. \return lanes (one bit each) whose overlap is above `watch` radii of the smaller grain
+/// Puts histories back and adds the forces to the sums, contact by contact in their order. \return lanes (one bit each) whose overlap is above
+/// `watch` radii of the smaller grain
 std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch);
 }  // namespace venato::dem

@@ -8,7 +8,7 @@
 namespace venato::dem {
 namespace {
 constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
-constexpr std::size_t kFetchFrom = 4000;      // grains: smaller systems live in the caches anyway
+constexpr std::size_t kFetchFrom = 4000;     // grains: smaller systems live in the caches anyway
 constexpr std::size_t kGrainsPerFetch = 8, kLinesPerFetch = 40;
 
 class Stopwatch {
@@ -152,7 +152,8 @@ void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
   ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
   ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
   if (block + 1 < nb)
-    ahead.add(pairs.partner.data() + pairs.block_first[block + 1], static_cast<std::size_t>(pairs.block_first[block + 2] - pairs.block_first[block + 1]));
+    ahead.add(pairs.partner.data() + pairs.block_first[block + 1],
+              static_cast<std::size_t>(pairs.block_first[block + 2] - pairs.block_first[block + 1]));
 }
 
 void Simulation::Impl::advance() {

@@ -22,8 +22,8 @@ const WallContact* continued(std::span<const WallContact> before, std::uint32_t&
   return best;
 }
 
-ContactGeometry wall_frame(const Sphere& x, const Motion& m, double mass, const Trio& n, const Trio& n_before, double overlap, const Trio& wall_velocity,
-                           const Trio& wall_spin, double dt) {
+ContactGeometry wall_frame(const Sphere& x, const Motion& m, double mass, const Trio& n, const Trio& n_before, double overlap,
+                           const Trio& wall_velocity, const Trio& wall_spin, double dt) {
   const Trio dv = wall_velocity - m.velocity, sum = n + n_before;
   const Trio n_half = (1 / length(sum)) * sum;
   ContactGeometry g;
@@ -71,7 +71,8 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
       now.on_grain = now.force.tangential - now.force.normal * n;
       now.torque_on_grain = x.r * cross(n, now.force.tangential) + now.force.rolling;
       const Trio &f = now.on_grain, &t_on = now.torque_on_grain;
-      walls_sum.v[0] += f.x, walls_sum.v[1] += f.y, walls_sum.v[2] += f.z, walls_sum.v[3] += t_on.x, walls_sum.v[4] += t_on.y, walls_sum.v[5] += t_on.z;
+      walls_sum.v[0] += f.x, walls_sum.v[1] += f.y, walls_sum.v[2] += f.z, walls_sum.v[3] += t_on.x, walls_sum.v[4] += t_on.y,
+          walls_sum.v[5] += t_on.z;
       const Vec3 on_wall = -to_vec3(now.on_grain);
       book.wall[static_cast<std::size_t>(c.wall)].force_n += on_wall;
       book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
@@ -92,8 +93,6 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
   std::copy(scratch.begin(), scratch.end(), row);
   wall_list.contact_count[s] = static_cast<std::uint8_t>(scratch.size());
 }
-template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, BlockBook&, std::vector<WallContact>&,
-                                            LoadRow&);
-template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, BlockBook&, std::vector<WallContact>&,
-                                            LoadRow&);
+template void Simulation::Impl::wall_forces(const LawTable<HertzMindlin>&, std::size_t, double, BlockBook&, std::vector<WallContact>&, LoadRow&);
+template void Simulation::Impl::wall_forces(const LawTable<Eepa>&, std::size_t, double, BlockBook&, std::vector<WallContact>&, LoadRow&);
 }  // namespace venato::dem

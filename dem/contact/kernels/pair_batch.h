@@ -56,7 +56,7 @@ VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   f.arm_j = rj - 0.5 * overlap;
   f.g.overlap = overlap;
   f.g.approach = -dot(dv, n);
-  const Trio across_half = dv - (dot(dv, half) * over.b) * half;                            // across the half-step normal
+  const Trio across_half = dv - (dot(dv, half) * over.b) * half;                // across the half-step normal
   f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, over.a * half) - across_half;  // `half` is a chord: exact for rigid turns
   f.g.roll = across(wi - wj, n);
   f.g.normal = n;
