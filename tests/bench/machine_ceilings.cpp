@@ -4,13 +4,13 @@
 /// The roof that a DEM step is compared with (tests/bench/RESULTS.md). Best of several repeats: a ceiling, not a mean.
 #include <immintrin.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -168,9 +168,18 @@ MemoryRates memory_rates(int threads, const Kernels& k) {
   return rates;
 }
 
-double cache_bytes(int name, double assumed) {
-  const long size = ::sysconf(name);
-  return size > 0 ? static_cast<double>(size) : assumed;
+/// Size of the data cache of a level that the first core sees. The system's table knows the share of a virtual machine, sysconf only the real chip's.
+double cache_bytes(int level, double assumed) {
+  for (int index = 0; index < 8; ++index) {
+    const std::string folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index) + "/";
+    std::string type;
+    double found_level = 0, kib = 0;
+    std::ifstream(folder + "type") >> type;
+    std::ifstream(folder + "level") >> found_level;
+    if (type != "Instruction" && found_level == level && std::ifstream(folder + "size") >> kib && kib > 0) return kib * 1024;
+  }
+  std::printf("L%d: size unknown, %.0f KiB assumed\n", level, assumed / 1024);
+  return assumed;
 }
 
 void print(const char* what, double one, double all, double unit, const char* unit_name) {
@@ -179,7 +188,7 @@ void print(const char* what, double one, double all, double unit, const char* un
 
 void run(int threads) {
   const Kernels& k = best_kernels();
-  const double l2 = cache_bytes(_SC_LEVEL2_CACHE_SIZE, 1 << 20), l3 = cache_bytes(_SC_LEVEL3_CACHE_SIZE, 16 << 20);
+  const double l2 = cache_bytes(2, 1 << 20), l3 = cache_bytes(3, 16 << 20);
   std::printf("cpu %s, %d threads, %d doubles per register, L2 %.2f MiB, L3 %.0f MiB\n", cpu_model_name().c_str(), threads, k.lanes, l2 / 1048576,
               l3 / 1048576);
   std::printf("%-34s %12s %12s\n", "ceiling", "1 thread", "all threads");
