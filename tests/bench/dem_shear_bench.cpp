@@ -56,7 +56,7 @@ Options read_options(int argc, char** argv) {
 }
 
 /// Start file of the case; made from the cached tile when missing. A change of what a tile is needs a new kStartVersion.
-constexpr int kStartVersion = 1;
+constexpr int kStartVersion = 2;
 fs::path start_of(const ShearCase& c, const fs::path& out, int threads) {
   const std::string version = "v" + std::to_string(kStartVersion);
   const fs::path start = out / ("start_" + c.name + "_" + version + ".data");

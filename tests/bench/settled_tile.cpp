@@ -6,30 +6,27 @@
 
 #include "base/error.h"
 #include "base/rng.h"
+#include "dem/packing/pack_dense.h"
 
 namespace venato::bench {
 namespace {
 constexpr double kDepth_m = 12e-3, kSettledFraction = 0.60;  // make the tile's width
 constexpr double kRest_m_s = 1e-3;                           // rms speed: 0.2 % of the sheared bed's floor
+constexpr double kPackedFraction = 0.58;                     // below what settles, so that the bed makes its own contacts while it sinks
 constexpr std::int64_t kBlock = 500, kMostBlocks = 80;
 constexpr std::uint64_t kSeed = 1234;
 
-/// Loose jittered lattice.
-std::vector<Vec3> loose_start(const std::vector<double>& diameter, double width) {
-  double largest = 0;
-  for (const double d : diameter) largest = std::max(largest, d);
-  const auto side = static_cast<std::size_t>(width / (1.03 * largest));
-  const double pitch = width / static_cast<double>(side);
-  std::vector<Vec3> at;
-  for (std::size_t k = 0; k < diameter.size(); ++k) {
-    Rng rng(kSeed, stream_id("tests/bench/jitter"), k);
-    const double room = pitch - diameter[k];
-    const auto jitter = [&] { return room * (rng.uniform() - 0.5); };
-    const double x = static_cast<double>(k % side), y = static_cast<double>(k / side % side), z = static_cast<double>(k / (side * side));
-    const double jx = jitter(), jy = jitter(), jz = jitter();
-    at.emplace_back((x + 0.5) * pitch + jx, (y + 0.5) * pitch + jy, (z + 0.5) * pitch + jz);
-  }
-  return at;
+/// Random packing between the floor and a lid that is taken away again.
+std::vector<Vec3> packed_start(const std::vector<double>& diameter, double width, double volume, int threads) {
+  dem::Box box;
+  box.high = Vec3(width, width, volume / (width * width * kPackedFraction));
+  box.periodic[0] = box.periodic[1] = true;
+  std::vector<double> radii;
+  for (const double d : diameter) radii.push_back(0.5 * d);
+  dem::PackingOptions options;
+  options.seed = kSeed;
+  options.threads = threads;
+  return dem::pack_dense(box, radii, options).position_m;
 }
 }  // namespace
 
@@ -52,7 +49,7 @@ StartState settled_tile(const std::string& psd, int threads) {
   floor.name = "floor";
   floor.shape = dem::PlaneShape{};
   sim.add_wall(floor);
-  const std::vector<Vec3> start = loose_start(diameter, tile.length_x_m);
+  const std::vector<Vec3> start = packed_start(diameter, tile.length_x_m, volume, threads);
   double mass = 0;
   for (std::size_t k = 0; k < diameter.size(); ++k) {
     dem::GrainInput g;
