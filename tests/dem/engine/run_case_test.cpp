@@ -70,7 +70,8 @@ Case dense_bed() {
   c.box = {Vec3(0, 0, -0.001), Vec3(0.004, 0.004, 0.01), {true, true, false}};
   c.materials = scene::powder(0.3, 0.4, 0.1, 0.3);
   c.powders = {{"white", {4e-4, 2.5, 3e-4, 6e-4}, 0}};
-  c.duration_s = 0.002;
+  c.duration_s = 0.01;
+  c.series.every_s = 0.0025;
   c.seed = 4;
   c.walls = {scene::plane()};
   Fill fill;
@@ -89,8 +90,9 @@ TEST(RunCase, DenseFillIsABedAtOnce) {
   EXPECT_NEAR(r.mass_put_in_kg, mass, 0.5 * 1900 * std::numbers::pi / 6 * std::pow(6e-4, 3));  // nearest whole number of grains: half the largest
   expect_book(r);
   EXPECT_EQ(r.mass_lost_box_kg, 0);
-  // 2 ms of free fall are 20 um and 20 mm/s: the bed sinks less, and nothing is thrown about by overlaps.
-  EXPECT_LT(r.max_speed_seen_m_s, 0.03);
+  // A bed that settles from 0.58 to 0.62 at most (random close packing, a floor) sinks 0.32 mm at its top: sqrt(2 g h) = 80 mm/s. Free fall would have
+  // 98 mm/s by now.
+  EXPECT_LT(r.max_speed_seen_m_s, 0.08);
   EXPECT_LT(r.max_overlap_seen, 0.01);
   EXPECT_GT(last(r.series.mean_contacts), 2);
   b.context.threads = 2;
