@@ -34,7 +34,7 @@ std::vector<GrainStream::Draw> grains_of_volume(GrainStream& stream, double volu
 
 void fill_dense(CaseRun& run, const Fill& fill, std::size_t index) {
   const std::string who = "DEM case '" + run.c.name + "': fill " + std::to_string(index) + ": ";
-  GrainStream stream(run.c, fill.powder_mass_fractions, stream_id("dem/fill") + index);
+  GrainStream stream(run.c, fill.powder_mass_fractions, stream_id("dem/fill/dense/grains") + index);
   const std::vector<GrainStream::Draw> draws = grains_of_volume(stream, fill.solid_fraction * (fill.high - fill.low).prod());
   if (draws.empty()) throw UsageError(who + "its region is too small for a single grain at this solid fraction");
   std::vector<double> radii;
@@ -43,7 +43,7 @@ void fill_dense(CaseRun& run, const Fill& fill, std::size_t index) {
   PackingOptions options;
   options.max_overlap = kDenseFillOverlap;
   options.seed = run.c.seed;
-  options.stream = stream_id("dem/fill/dense") + index;
+  options.stream = stream_id("dem/fill/dense/places") + index;
   options.threads = run.sim.threads();
   std::vector<Vec3> at;
   try {
