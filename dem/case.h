@@ -69,13 +69,17 @@ struct Wall {
 };
 
 // ---- filling and emptying ----------------------------------------------------------------------------------------------------
-/// Loose block of grains placed at t = 0 on a jittered lattice without overlap inside a region, given by a solid fraction or a mass.
+/// Block of grains placed at t = 0 inside a region: loose on a jittered lattice without overlap, or as a dense random packing (dem/packing/pack_dense.h).
 struct Fill {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   std::vector<double> powder_mass_fractions;   ///< one per powder, sum 1; grains are assigned at random
   double mass_kg = 0;                          ///< 0 = as many as the lattice holds
   Vec3 velocity_m_s = Vec3::Zero();
+  /// > 0: dense random packing with this share of the region's volume (mass_kg must be 0). Periodic where the region spans a periodic box; its other faces
+  /// are flat. Grains that overlap a wall or an earlier grain by more than kDenseFillOverlap of their radius are left out.
+  double solid_fraction = 0;
 };
+constexpr double kDenseFillOverlap = 1e-3;     ///< of the smaller radius: largest overlap between grains of a fresh dense fill
 /// Rain: grains appear without overlap at random places of a region at a mass rate while on; what does not fit is retried next step and
 /// counted (`starved`).
 struct Rain {

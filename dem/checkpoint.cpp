@@ -62,7 +62,7 @@ std::uint64_t case_fingerprint(const Case& c) {
   w.value(c.coarse_graining), w.value(static_cast<int>(c.law)), w.value(c.eepa), w.value(c.expected_max_speed_m_s), w.value(c.rayleigh_fraction);
   w.value(c.hertz_fraction), w.value(c.time_step_s), w.value(c.duration_s), w.value(c.seed);
   for (const Wall& v : c.walls) add_shape(w, v.shape), add_motion(w, v.motion), w.value(v.material), w.value(v.present);
-  for (const Fill& f : c.fills) w.value(f.low), w.value(f.high), w.list(f.powder_mass_fractions), w.value(f.mass_kg), w.value(f.velocity_m_s);
+  for (const Fill& f : c.fills) w.value(f.low), w.value(f.high), w.list(f.powder_mass_fractions), w.value(f.mass_kg), w.value(f.velocity_m_s), w.value(f.solid_fraction);
   for (const Rain& r : c.rains)
     exchange_text(w, r.name), w.value(r.low), w.value(r.high), w.list(r.powder_mass_fractions), w.value(r.mass_rate_kg_s),
         w.value(r.resting_speed_m_s), w.list(r.when), w.value(r.velocity_m_s), w.value(r.level_z_m);

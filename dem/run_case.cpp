@@ -53,6 +53,9 @@ void check_case(const Case& c) {
              ", outside the box (" + std::to_string(c.box.low[a] * 1e3) + " … " + std::to_string(c.box.high[a] * 1e3) + " mm)");
   };
   for (std::size_t k = 0; k < c.fills.size(); ++k) inside(c.fills[k].low, c.fills[k].high, "fill " + std::to_string(k));
+  for (std::size_t k = 0; k < c.fills.size(); ++k)
+    if (c.fills[k].solid_fraction > 0 && c.fills[k].mass_kg > 0)
+      fail("fill " + std::to_string(k) + " gives both a solid fraction (dense packing) and a mass (lattice)");
   for (const Rain& r : c.rains) inside(r.low, r.high, "rain '" + r.name + "'");
   for (std::size_t k = 0; k < c.fills.size(); ++k) fractions(c.fills[k].powder_mass_fractions, "fill " + std::to_string(k));
   for (const Rain& r : c.rains) fractions(r.powder_mass_fractions, "rain '" + r.name + "'");

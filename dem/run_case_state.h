@@ -67,7 +67,11 @@ struct CaseRun {
   void take_out(GrainId id, double& mass_account_kg);
 };
 
+// run_case_dense_fill.cpp
+/// \throws UsageError when the region is too small or its solid fraction cannot be reached.
+void fill_dense(CaseRun& run, const Fill& fill, std::size_t index);
 // run_case_sources.cpp
+GrainInput grain_of(const GrainStream::Draw& draw, const Vec3& position_m, const Vec3& velocity_m_s);
 void fill_regions(CaseRun& run);
 void rain_and_hand_over(CaseRun& run);
 // run_case_watch.cpp

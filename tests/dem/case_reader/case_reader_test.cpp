@@ -115,6 +115,16 @@ TEST(CaseReader, shapes_motions_rain_and_laws) {
   EXPECT_NEAR(c.vtk_every_s, 0.02, 1e-15);
 }
 
+TEST(CaseReader, dense_fill) {
+  const auto [c, outcome] =
+      read({{"/fills/0", R"({"low_mm":[0,-10,8],"high_mm":[8,10,20],"mass_fractions":[1],"packing":"dense","solid_fraction":0.6})"}});
+  ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
+  ASSERT_EQ(c.fills.size(), 1u);
+  EXPECT_EQ(c.fills[0].solid_fraction, 0.6);
+  EXPECT_EQ(c.fills[0].mass_kg, 0);
+  EXPECT_EQ(read().c.fills[0].solid_fraction, 0);  // lattice unless asked
+}
+
 TEST(CaseReader, cylinder_and_plane) {
   const auto [c, outcome] = read({}, "lifted_cylinder.json");
   ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
@@ -191,6 +201,12 @@ TEST(CaseReader, each_mistake_is_reported_where_it_is) {
            {"/fills/0/mass_fractions", "[0.5, 0.5]", "/fills/0/mass_fractions", "1 powders"},
            {"/fills/0/high_mm", "[8, 11, 95]", "/fills/0/low_mm", "the box from"},
            {"/fills/0/high_mm", "[8, -11, 86]", "/fills/0/high_mm", "along y"},
+           {"/fills/0/packing", "\"random\"", "/fills/0/packing", ""},
+           {"/fills/0/packing", "\"dense\"", "/fills/0/solid_fraction", "at least 0.1"},
+           {"/fills/0/solid_fraction", "0.6", "/fills/0/solid_fraction", "no meaning for a lattice"},
+           {"/fills/0/solid_fraction", "0.75", "/fills/0/solid_fraction", "0.74"},
+           {"/fills/0", R"({"low_mm":[0,-10,8],"high_mm":[8,10,20],"mass_fractions":[1],"packing":"dense","solid_fraction":0.6,"mass_g":1})",
+            "/fills/0/mass_g", "no meaning for a dense packing"},
            {"/fills", "[]", "", "no grains"},
            {"/counters/0/position_mm", "95", "/counters/0/position_mm", "outside the box"},
            {"/counters/0/axis", "\"w\"", "/counters/0/axis", ""},

@@ -122,6 +122,19 @@ TEST(TimeStep, eepa_steps_shorter_by_the_root_of_its_unloading_stiffness) {
   EXPECT_NEAR(choose_time_step(c) / hertz, 0.5, 1e-12);
 }
 
+TEST(Cost, dense_fills_hold_their_solid_fraction) {
+  Case c = powder_case(1);
+  c.duration_s = 1;
+  Fill fill;
+  fill.high = Vec3(0.01, 0.01, 0.01);
+  fill.powder_mass_fractions = {1};
+  fill.solid_fraction = 0.6;
+  c.fills = {fill};
+  const Powder& p = c.powders[0];
+  const double density = c.materials.materials[static_cast<std::size_t>(p.material)].density_kg_m3;
+  EXPECT_NEAR(estimate_cost(c, 1).particles * mean_grain_mass(p.psd, density, 1), 0.6 * 1e-6 * density, 1e-9 * density * 1e-6);
+}
+
 TEST(Cost, counts_grains_steps_and_particle_steps) {
   Case c = powder_case(1);
   c.duration_s = 2;
