@@ -76,10 +76,11 @@ void SoftSpheres::steer_skin() {
 void SoftSpheres::rebuild_list(double skin) {
   skin_ = skin;
   const std::int64_t n = static_cast<std::int64_t>(size());
-  double r_max = 0;
-  for (Sphere& s : sphere_) wrap(s), r_max = std::max(r_max, s.r);
+  for (Sphere& s : sphere_) wrap(s);
   const double grown = 1 + swelling_;
-  const std::vector<std::int32_t> order = grid_.build(sphere_, periodic_, 2 * swelling_ * r_max + skin_, threads_);
+  std::vector<Sphere> reach(sphere_.begin(), sphere_.end());
+  for (Sphere& s : reach) s.r = grown * s.r + 0.5 * skin_;
+  const std::vector<std::int32_t> order = grid_.build(reach, periodic_, threads_);
   const auto in_order = [&](auto& values) {
     auto sorted = values;
 #pragma omp parallel for schedule(static) num_threads(threads_)
@@ -98,7 +99,7 @@ void SoftSpheres::rebuild_list(double skin) {
       const Sphere p = sphere_[static_cast<std::size_t>(i)];
       const std::size_t before = out.size();
       const double own = grown * p.r + skin_;
-      grid_.for_runs_near(p.x, p.y, p.z, own + swelling_ * r_max, [&](std::int32_t from, std::int32_t to) {
+      grid_.for_runs_near(p.x, p.y, p.z, grown * p.r + 0.5 * skin_, [&](std::int32_t from, std::int32_t to) {
         for (std::int32_t j = from; j < to; ++j) {
           const Sphere& q = sphere_[static_cast<std::size_t>(j)];
           double dx = std::abs(q.x - p.x), dy = std::abs(q.y - p.y), dz = std::abs(q.z - p.z);

@@ -106,8 +106,8 @@ void print_window(const char* name, const dem::Simulation& sim, double seconds) 
   const double rate = static_cast<double>(s.steps) * static_cast<double>(sim.grain_count()) / seconds;
   std::printf("%s steps %lld seconds %.4f particle_steps_per_s %.5g list_builds %lld listed_pairs %.0f\n", name, static_cast<long long>(s.steps),
               seconds, rate, static_cast<long long>(s.list_builds), s.pair_count);
-  const double known = s.seconds_list + s.seconds_contact + s.seconds_sum + s.seconds_integrate + s.seconds_walls;
-  std::printf("phases_s list %.4f contact %.4f sum %.4f integrate %.4f walls %.4f other %.4f\n", s.seconds_list, s.seconds_contact, s.seconds_sum,
+  const double known = s.seconds_list + s.seconds_scan + s.seconds_contact + s.seconds_integrate + s.seconds_walls;
+  std::printf("phases_s list %.4f scan %.4f contact %.4f integrate %.4f walls %.4f other %.4f\n", s.seconds_list, s.seconds_scan, s.seconds_contact,
               s.seconds_integrate, s.seconds_walls, seconds - known);
   std::fflush(stdout);
 }
