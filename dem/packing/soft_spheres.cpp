@@ -78,9 +78,9 @@ void SoftSpheres::rebuild_list(double skin) {
   const std::int64_t n = static_cast<std::int64_t>(size());
   for (Sphere& s : sphere_) wrap(s);
   const double grown = 1 + swelling_;
-  std::vector<Sphere> reach(sphere_.begin(), sphere_.end());
-  for (Sphere& s : reach) s.r = grown * s.r + 0.5 * skin_;
-  const std::vector<std::int32_t> order = grid_.build(reach, periodic_, threads_);
+  std::vector<Sphere> grown_spheres(sphere_.begin(), sphere_.end());
+  for (Sphere& s : grown_spheres) s.r = grown * s.r + 0.5 * skin_;
+  const std::vector<std::int32_t> order = grid_.build(grown_spheres, periodic_, threads_);
   const auto in_order = [&](auto& values) {
     auto sorted = values;
 #pragma omp parallel for schedule(static) num_threads(threads_)
