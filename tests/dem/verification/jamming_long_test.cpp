@@ -10,7 +10,7 @@ struct Packing {
   double pressure, contacts;  ///< [-] p / Y*, contacts per grain without rattlers
 };
 /// `n` equal spheres thrown at random into a periodic cube at solid fraction `phi`, overlaps relaxed: velocities are taken away whenever they have
-/// turned against the forces as a whole, until the unbalanced force is 1e-5 of the mean contact force or so.
+/// turned against the forces as a whole; the unbalanced force must end below 1e-3 of the mean contact force.
 Packing quench(double phi, int n, std::uint64_t seed) {
   const Ball ball{1e7, .25, 2000, 1e-3};
   const double side = std::cbrt(n * 4. / 3 * std::numbers::pi / phi) * ball.radius;
@@ -27,7 +27,7 @@ Packing quench(double phi, int n, std::uint64_t seed) {
     for (const GrainId id : sim.grain_ids()) sim.set_velocity(id, Vec3::Zero(), Vec3::Zero());
   };
   for (int k = 0; k < 60; ++k) sim.step(5), stop();  // random overlaps reach a whole diameter: creep out of them
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < 3000; ++k) {
     sim.step(20);
     double power = 0;
     for (const GrainState& g : sim.grains()) power += g.velocity_m_s.dot(g.force_n);
@@ -42,7 +42,7 @@ Packing quench(double phi, int n, std::uint64_t seed) {
     virial += c.normal_force_n * (2 * ball.radius - c.overlap_m);
     ++count[static_cast<std::size_t>(c.i)], ++count[static_cast<std::size_t>(c.j)];
   }
-  EXPECT_LT(unbalanced, 1e-2 * mean) << phi;
+  EXPECT_LT(unbalanced, 1e-3 * mean) << phi;
   // Rattlers (fewer than four contacts) go, with what they touched, until none is left.
   std::vector<bool> out(count.size());
   for (bool again = true; again;) {
@@ -65,7 +65,7 @@ Packing quench(double phi, int n, std::uint64_t seed) {
 /// its isostatic value with the root of the distance: Z = Z_0 + c sqrt(phi - phi_J), Z_0 = 6 +- .2. The limits are those of the literature for a thousand
 /// spheres. Controls: below jamming (.58) there is no pressure to speak of and no rigid skeleton of six.
 TEST(Jamming, FrictionlessSpheres) {
-  const double phi[] = {.66, .68, .70};
+  const double phi[] = {.655, .67, .69};
   Packing p[3];
   double mean_x = 0, mean_y = 0;
   for (int k = 0; k < 3; ++k) {
