@@ -1,5 +1,5 @@
-/// The engine compiled at -O0, -O2 and as it ships gives the same bytes: no sum depends on what the compiler makes of the loops (-ffp-contract=off, fixed
-/// lane order). The programs are built by the fixture of this test, so that ./check without --long does not compile the engine three times.
+/// The engine compiled at -O0, -O2 and as it ships gives the same bytes: no sum depends on what the compiler makes of the loops (-ffp-contract=off,
+/// fixed lane order). The programs are built by the fixture of this test, so that ./check without --long does not compile the engine three times.
 #include <gtest/gtest.h>
 
 #include <cstdio>

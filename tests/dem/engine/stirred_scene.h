@@ -1,6 +1,6 @@
 #pragma once
-/// The heap of scene.h on a shaken floor and under a ramp that slides to and fro: contacts of every kind come and go and lists are rebuilt for as long as
-/// it runs.
+/// The heap of scene.h on a shaken floor and under a ramp that slides to and fro: contacts of every kind come and go and lists are rebuilt for as
+/// long as it runs.
 #include "tests/dem/engine/scene.h"
 
 namespace venato::dem::scene {

@@ -1,6 +1,6 @@
-/// Bits do not depend on the number of threads over 10^5 steps with rebuilds: a difference in any order of summation would have grown to order one long
-/// before (the motion is chaotic: times e in about a millisecond of 250 steps). 520 grains are three blocks of work; more threads than blocks take part
-/// in what is shared otherwise.
+/// Bits do not depend on the number of threads over 10^5 steps with rebuilds: a difference in any order of summation would have grown to order one
+/// long before (the motion is chaotic: times e in about a millisecond of 250 steps). 520 grains are three blocks of work; more threads than blocks
+/// take part in what is shared otherwise.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
-/// Bits do not depend on the number of threads (design.md 4; house style 16): enough grains that eight threads each have work (the engine shares them out
-/// in blocks of 256), every kind of wall in motion. The 10^5 steps are in threads_long_test.cpp.
+/// Bits do not depend on the number of threads (design.md 4; house style 16): enough grains that eight threads each have work (the engine shares them
+/// out in blocks of 256), every kind of wall in motion. The 10^5 steps are in threads_long_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

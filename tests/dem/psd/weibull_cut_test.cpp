@@ -41,9 +41,9 @@ TEST(WeibullCut, MassLostAndSauterDiameter) {
     EXPECT_NEAR(d3 / d2 / kUm / row.d32_um, 1, .01);
   }
 }
-/// Without a cut the number of grains per gram grows without end as the cut goes to zero, like cut^(shape - 3) plus a constant: from decade to decade the
-/// increase is 10^(3 - shape) times the last one (1 %), for shape 3 the same again; for shape 4 the number settles (1 %). So a lower cut of zero is refused.
-/// Negative control: the number of the law with (next to) no cut, 0.1 um, misses the number at 100 um 30 times over.
+/// Without a cut the number of grains per gram grows without end as the cut goes to zero, like cut^(shape - 3) plus a constant: from decade to decade
+/// the increase is 10^(3 - shape) times the last one (1 %), for shape 3 the same again; for shape 4 the number settles (1 %). So a lower cut of zero
+/// is refused. Negative control: the number of the law with (next to) no cut, 0.1 um, misses the number at 100 um 30 times over.
 TEST(WeibullCut, NumberDivergesWithoutACut) {
   for (const double shape : {2.5, 2.75, 3.}) {
     const double first = grains_per_gram(375, shape, .1) - grains_per_gram(375, shape, 1),

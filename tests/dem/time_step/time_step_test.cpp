@@ -79,7 +79,8 @@ TEST(TimeStep, wall_motion_raises_the_relative_speed) {
 }
 
 TEST(TimeStep, the_smallest_grain_and_the_fastest_wall_of_several_decide) {
-  // Table value at 5 m/s on a rigid wall, t_H ~ R v^(-1/5): 1e-6. Negative control: the other wall's speed or the other powder's size misses it widely.
+  // Table value at 5 m/s on a rigid wall, t_H ~ R v^(-1/5): 1e-6. Negative control: the other wall's speed or the other powder's size misses it
+  // widely.
   Case c = powder_case(1);
   c.powders.push_back({"coarse", {0, 0, 1600e-6, 1600e-6}, 0});
   c.walls = {floor_of(1), floor_of(1), floor_of(1)};

@@ -1,4 +1,5 @@
-/// Solitary wave in a Hertzian chain: neighbour lists, pair forces, no damping. 80 steel beads R = 4 mm, E = 200 GPa, nu = .3, 7800 kg/m3; the first has v0.
+/// Solitary wave in a Hertzian chain: neighbour lists, pair forces, no damping. 80 steel beads R = 4 mm, E = 200 GPa, nu = .3, 7800 kg/m3; the first
+/// has v0.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -40,8 +41,10 @@ Wave engine_wave(double v0) {
     sim.step();
     double f[2] = {};
     for (const ContactState& c : sim.contacts())
-      if (c.i == kEarly) f[0] = c.normal_force_n;
-      else if (c.i == kLate) f[1] = c.normal_force_n;
+      if (c.i == kEarly)
+        f[0] = c.normal_force_n;
+      else if (c.i == kLate)
+        f[1] = c.normal_force_n;
     early.add(sim.time_s(), f[0]), late.add(sim.time_s(), f[1]);
   }
   return {(kLate - kEarly) * 2 * kSteel.radius / (late.time - early.time), late.force};
@@ -66,7 +69,9 @@ Wave loop_wave(double v0, double r_eff) {
   return {(kLate - kEarly) * 2 * kSteel.radius / (late.time - early.time), late.force};
 }
 /// Published: v0 = .1: 422.76 m/s, 8.4074 N; v0 = 1: 670.03 m/s, 133.249 N; speed ~ v0^(1/5). 0.3 %.
-bool as_published(const Wave& w, double speed, double force) { return std::abs(w.speed / speed - 1) <= 3e-3 && std::abs(w.force / force - 1) <= 3e-3; }
+bool as_published(const Wave& w, double speed, double force) {
+  return std::abs(w.speed / speed - 1) <= 3e-3 && std::abs(w.force / force - 1) <= 3e-3;
+}
 TEST(Chain, SolitaryWave) {
   const double table[][3] = {{.1, 422.76, 8.4074}, {1, 670.03, 133.249}};
   double speed[2];

@@ -65,8 +65,7 @@ TEST(EnergyBook, EachLossIsTheAnalyticOne) {
     return sim.energy();
   };
   const double v_slide = .02, slip = m * v_slide * v_slide / 7, v_roll = .02, rolling = .7 * m * v_roll * v_roll;
-  const EnergyBook slide = lying({.3, .4, 0, 0}, v_slide, 0, 4e-6, 2000),
-                   roll = lying({.5, .5, .1, .3}, v_roll, v_roll / bead.radius, 4e-6, 17500);
+  const EnergyBook slide = lying({.3, .4, 0, 0}, v_slide, 0, 4e-6, 2000), roll = lying({.5, .5, .1, .3}, v_roll, v_roll / bead.radius, 4e-6, 17500);
   EXPECT_NEAR((slide.dissipated_sliding_j + slide.dissipated_tangential_damping_j) / slip, 1, 5e-3);
   EXPECT_LT(std::abs(slide.dissipated_normal_j) / slip, 5e-3);
   EXPECT_EQ(slide.dissipated_rolling_j, 0);
@@ -197,8 +196,8 @@ TEST(ClosedLoop, RandomPathsNeverGain) {
 
 /// A pressed, sheared pair turned as a rigid body by 100 and a quarter turns in steps of 1/400 turn, about axes across, along and askew to the
 /// normal: force and rolling torque keep their size and come round with the pair, 1e-6. Not whole turns: there a spring that stays behind in space
-/// would look right. Negative controls, same check: the same spring by bare projection, which loses 2 pi^2 / N per turn (and does not follow a spin about
-/// the normal at all), and a rolling spring that is not turned with the contact, as in LIGGGHTS.
+/// would look right. Negative controls, same check: the same spring by bare projection, which loses 2 pi^2 / N per turn (and does not follow a spin
+/// about the normal at all), and a rolling spring that is not turned with the contact, as in LIGGGHTS.
 TEST(Objectivity, HundredAndAQuarterTurnsOfARigidPair) {
   const double dt = 1e-6;
   const int n = 400, steps = 100 * n + n / 4;

@@ -5,9 +5,9 @@
 
 namespace venato::dem::verification {
 namespace {
-/// 160 grains (R = .5 mm) tumble in a smooth cylinder (R = 5 mm, 3 mm long, periodic along its axis) with friction and rolling friction. Over eight turns
-/// after four to settle: work of the shell (own trapezoid over wall_load) = dissipated energy, 1 %; what moves to and fro between kinetic and potential is
-/// far less than that; the mean torque is that of the bed's weight at its mean offset, i.e. the moment of gravity about the axis, 1 %.
+/// 160 grains (R = .5 mm) tumble in a smooth cylinder (R = 5 mm, 3 mm long, periodic along its axis) with friction and rolling friction. Over eight
+/// turns after four to settle: work of the shell (own trapezoid over wall_load) = dissipated energy, 1 %; what moves to and fro between kinetic and
+/// potential is far less than that; the mean torque is that of the bed's weight at its mean offset, i.e. the moment of gravity about the axis, 1 %.
 TEST(Drum, TorqueTimesRotationIsTheDissipatedPower) {
   const Ball ball{5e6, .25, 1900, 5e-4};
   const double g = 9.81, rate = 15, dt = 5e-6, r_c = 5e-3;

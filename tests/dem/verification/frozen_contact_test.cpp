@@ -11,8 +11,8 @@ const Ball kBead{1e7, .25, 2500, 1e-3};
 const MaterialTable kGrainAndSteel{{{"grain", 2500, 1e7, .25}, {"steel", 7800, 2.1e11, .3}},
                                    {{.5, 100, .1, .3}, {.4, 100, .1, .3}, {.4, 100, .1, .3}, {.6, 100, .1, .3}}};
 
-/// 1/Y* = sum (1 - nu^2) / E and 1/G* = sum 2 (2 - nu)(1 + nu) / E: rounding, 1e-14. The control takes the mean of the two shear moduli (as some codes
-/// do): 1.5e4 times too stiff for a soft grain on steel, far outside.
+/// 1/Y* = sum (1 - nu^2) / E and 1/G* = sum 2 (2 - nu)(1 + nu) / E: rounding, 1e-14. The control takes the mean of the two shear moduli (as some
+/// codes do): 1.5e4 times too stiff for a soft grain on steel, far outside.
 TEST(Moduli, AreTheMindlinSums) {
   const EffectiveModuli same = effective_moduli(kBead.material(), kBead.material());
   EXPECT_NEAR(same.young_pa / 5333333.3333333333, 1, 1e-14);
@@ -86,8 +86,8 @@ TEST(FrozenOverlap, SwappedOrderBitwise) {
   }
 }
 
-/// Work of the hand over the four sides of the Elata-Berryman loop by the bare formulas; `rescale`: the spring shrinks on unloading; `displacement`: it
-/// is k_t(d) times the displacement.
+/// Work of the hand over the four sides of the Elata-Berryman loop by the bare formulas; `rescale`: the spring shrinks on unloading; `displacement`:
+/// it is k_t(d) times the displacement.
 double loop_work(bool shear_first, bool rescale, bool displacement) {
   const double g = 8 * 1.142857142857e6, r = 5e-4, low = 1e-6, high = 4e-6, s = 2e-7;
   const int n = 2000;

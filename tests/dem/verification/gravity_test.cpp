@@ -1,5 +1,5 @@
-/// Spheres under gravity: free fall, two stacked spheres between walls (MFIX-DEM case 03 with Hertz contacts), a bouncing ball, a ball that slides until
-/// it rolls (MFIX-DEM case 04).
+/// Spheres under gravity: free fall, two stacked spheres between walls (MFIX-DEM case 03 with Hertz contacts), a bouncing ball, a ball that slides
+/// until it rolls (MFIX-DEM case 04).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,7 +22,8 @@ TEST(FreeFall, IsTheParabola) {
 
 /// Two spheres R = .5 mm, densities 2e4 and 1e4, E = 10 MPa, nu = .25, e = 1, between rigid walls at 0 and 1.8 mm. No friction, nothing turns.
 Simulation stacked(double low, double high, double gravity, double dt) {
-  const MaterialTable table{{{"heavy", 2e4, 1e7, .25}, {"light", 1e4, 1e7, .25}, {"rigid", 1, 1e30, .3}}, std::vector<PairProperties>(9, {1, 0, 0, 0})};
+  const MaterialTable table{{{"heavy", 2e4, 1e7, .25}, {"light", 1e4, 1e7, .25}, {"rigid", 1, 1e30, .3}},
+                            std::vector<PairProperties>(9, {1, 0, 0, 0})};
   Simulation sim(scene::setup(dt, table, Vec3(0, 0, -gravity)));
   for (const double z : {0., 1.8e-3}) {
     Wall w = scene::plane(Vec3(0, 0, z), z > 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1));
@@ -54,9 +55,13 @@ std::array<double, 2> stacked_rk4(double low, double high, double gravity, doubl
   }
   return {s[0], s[1]};
 }
-/// Centres from .44 / 1.36 mm at rest: published [mm] to seven figures. 1e-3 of an overlap of 60 um = 6e-8 m; at 1e-8 s the step's error is far below.
-constexpr double kStacked[][3] = {{.2e-3, .4502500e-3, 1.3651630e-3}, {.4e-3, .4469025e-3, 1.3624393e-3}, {.6e-3, .4420169e-3, 1.3579220e-3},
-                                  {.8e-3, .4532991e-3, 1.3621699e-3}, {1e-3, .4444872e-3, 1.3547869e-3}};
+/// Centres from .44 / 1.36 mm at rest: published [mm] to seven figures. 1e-3 of an overlap of 60 um = 6e-8 m; at 1e-8 s the step's error is far
+/// below.
+constexpr double kStacked[][3] = {{.2e-3, .4502500e-3, 1.3651630e-3},
+                                  {.4e-3, .4469025e-3, 1.3624393e-3},
+                                  {.6e-3, .4420169e-3, 1.3579220e-3},
+                                  {.8e-3, .4532991e-3, 1.3621699e-3},
+                                  {1e-3, .4444872e-3, 1.3547869e-3}};
 bool stacked_as_published(const std::array<double, 2>& z, const double (&row)[3]) {
   return std::abs(z[0] - row[1]) <= 6e-8 && std::abs(z[1] - row[2]) <= 6e-8;
 }
@@ -70,8 +75,8 @@ TEST(Stacked, TwoSpheresBetweenWalls) {
     EXPECT_FALSE(stacked_as_published(stacked_rk4(.44e-3, 1.36e-3, 9.81, row[0], .5), row)) << row[0];  // negative control
   }
 }
-/// .45 / 1.35 mm without gravity is an equilibrium: Y*, R* of pair and wall cancel identically (2^(3/2) (1/2)(1/2)^(1/2) = 1). Rounding only: 1e-12 of
-/// the radius after 10^4 steps. The start of the test above is none.
+/// .45 / 1.35 mm without gravity is an equilibrium: Y*, R* of pair and wall cancel identically (2^(3/2) (1/2)(1/2)^(1/2) = 1). Rounding only: 1e-12
+/// of the radius after 10^4 steps. The start of the test above is none.
 TEST(Stacked, ForcesOfPairAndWallsCancel) {
   Simulation rest = stacked(.45e-3, 1.35e-3, 0, 1e-7), off = stacked(.44e-3, 1.36e-3, 0, 1e-7);
   rest.step(10000), off.step(1000);
@@ -81,9 +86,9 @@ TEST(Stacked, ForcesOfPairAndWallsCancel) {
   EXPECT_GT(std::abs(off.grain(0).position_m.z() - .44e-3), 1e-6);
 }
 
-/// MFIX-DEM's ball (R = .1 m, 2600 kg/m3) let fall from .5 m: bounce k tops at h_k = (h0 - R) e^(2k) + R in the hard limit. E = 10 GPa (100 for the slow
-/// bounces of e = .6) makes contacts so short that gravity in them takes less than the tolerance, 4e-3 of the height per bounce (2e-3 of e). The top is
-/// taken from speed and place in flight.
+/// MFIX-DEM's ball (R = .1 m, 2600 kg/m3) let fall from .5 m: bounce k tops at h_k = (h0 - R) e^(2k) + R in the hard limit. E = 10 GPa (100 for the
+/// slow bounces of e = .6) makes contacts so short that gravity in them takes less than the tolerance, 4e-3 of the height per bounce (2e-3 of e). The
+/// top is taken from speed and place in flight.
 TEST(Bounce, HeightsFallGeometrically) {
   for (const double e : {.9, .6}) {
     const Ball ball{e > .8 ? 1e10 : 1e11, .25, 2600, .1};

@@ -32,7 +32,8 @@ Column settle(double mu_wall) {
   lift.velocity_m_s = Vec3(0, 0, .02), lift.translate_when = {{sim.time_s(), 10}};
   sim.set_wall_motion(1, lift);  // friction must be mobilised by moving the tube: a heap that rebounded on settling may even hang the other way
   sim.step(4000);
-  const double floor = sim.wall_impulse_n_s(0).z(), wall_before = sim.wall_impulse_n_s(1).z(), steps = 2000, unit = -weight * steps * sim.time_step_s();
+  const double floor = sim.wall_impulse_n_s(0).z(), wall_before = sim.wall_impulse_n_s(1).z(), steps = 2000,
+               unit = -weight * steps * sim.time_step_s();
   sim.step(2000);
   Column c{(sim.wall_impulse_n_s(0).z() - floor) / unit, (sim.wall_impulse_n_s(1).z() - wall_before) / unit, {}};
   double top = 0;
@@ -50,14 +51,13 @@ Column settle(double mu_wall) {
   }
   return c;
 }
-/// mu_w = 0: floor load = weight, 1 % asked, 1e-3 held (what is left of the motion); nothing vertical on the tube, whose normals are horizontal: rounding; through
-/// every level goes the weight above it: 1e-2 of the weight. Control: mu_w = .5 fails the same three checks (the tube bears more than a tenth).
+/// mu_w = 0: floor load = weight, 1 % asked, 1e-3 held (what is left of the motion); nothing vertical on the tube, whose normals are horizontal:
+/// rounding; through every level goes the weight above it: 1e-2 of the weight. Control: mu_w = .5 fails the same three checks (the tube bears more
+/// than a tenth).
 TEST(Column, HydrostaticWithoutWallFriction) {
   auto floor_ok = [](const Column& c) { return std::abs(c.floor - 1) <= 1e-3; };
   auto wall_ok = [](const Column& c) { return std::abs(c.wall) <= 1e-12; };
-  auto levels_ok = [](const Column& c) {
-    return std::all_of(c.imbalance.begin(), c.imbalance.end(), [](double x) { return std::abs(x) <= 1e-2; });
-  };
+  auto levels_ok = [](const Column& c) { return std::all_of(c.imbalance.begin(), c.imbalance.end(), [](double x) { return std::abs(x) <= 1e-2; }); };
   const Column smooth = settle(0), rough = settle(.5);
   EXPECT_TRUE(floor_ok(smooth)) << smooth.floor;
   EXPECT_TRUE(wall_ok(smooth)) << smooth.wall;

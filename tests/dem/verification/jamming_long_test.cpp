@@ -1,4 +1,5 @@
-/// Frictionless spheres jam at 64 % with six contacts each (Silbert 2010; O'Hern et al. 2003): a many-body check of packing, forces and neighbour lists.
+/// Frictionless spheres jam at 64 % with six contacts each (Silbert 2010; O'Hern et al. 2003): a many-body check of packing, forces and neighbour
+/// lists.
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -61,9 +62,9 @@ Packing quench(double phi, int n, std::uint64_t seed) {
   for (std::size_t k = 0; k < count.size(); ++k) sum += out[k] ? 0 : count[k], held += !out[k];
   return {virial / (3 * side * side * side) / (ball.plane_modulus() / 2), sum / held};
 }
-/// For Hertz spheres p ~ (phi - phi_J)^1.5, so p^(2/3) against phi is a straight line that meets zero at phi_J: .64 +- .01. The contact number grows from
-/// its isostatic value with the root of the distance: Z = Z_0 + c sqrt(phi - phi_J), Z_0 = 6 +- .2. The limits are those of the literature for a thousand
-/// spheres. Controls: below jamming (.58) there is no pressure to speak of and no rigid skeleton of six.
+/// For Hertz spheres p ~ (phi - phi_J)^1.5, so p^(2/3) against phi is a straight line that meets zero at phi_J: .64 +- .01. The contact number grows
+/// from its isostatic value with the root of the distance: Z = Z_0 + c sqrt(phi - phi_J), Z_0 = 6 +- .2. The limits are those of the literature for a
+/// thousand spheres. Controls: below jamming (.58) there is no pressure to speak of and no rigid skeleton of six.
 TEST(Jamming, FrictionlessSpheres) {
   const double phi[] = {.655, .67, .69};
   Packing p[3];

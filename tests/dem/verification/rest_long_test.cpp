@@ -37,8 +37,8 @@ Rest rest(int n, double e, double rayleigh, int settle, int watch) {
   Rest out{early, sim.energy().kinetic_j() / scale, 0, std::abs(-sim.wall_load(0).force_n.z() / weight - 1)};
   const std::vector<GrainState> after = sim.grains();
   for (std::size_t k = 0; k < before.size(); ++k) out.crept = std::max(out.crept, (after[k].position_m - before[k].position_m).norm());
-  std::printf("e %.2f, %.2f t_R: kinetic %.2e -> %.2e, crept %.2e m, floor off by %.2e\n", e, rayleigh, out.kinetic_early, out.kinetic_late, out.crept,
-              out.imbalance);
+  std::printf("e %.2f, %.2f t_R: kinetic %.2e -> %.2e, crept %.2e m, floor off by %.2e\n", e, rayleigh, out.kinetic_early, out.kinetic_late,
+              out.crept, out.imbalance);
   std::fflush(stdout);
   return out;
 }
@@ -46,11 +46,12 @@ Rest rest(int n, double e, double rayleigh, int settle, int watch) {
 /// thousandth of the radius and the floor carries the weight to 1e-6.
 bool at_rest(const Rest& r) { return r.kinetic_late <= 1e-10 && r.crept <= 1e-4 * kGrain.radius && r.imbalance <= 1e-6; }
 
-/// 2000 grains, 2e4 steps to settle and 3e4 more (a minute or two; the full case asks for 1e5 grains and 1e6 steps) at the production step, 20 % Rayleigh.
+/// 2000 grains, 2e4 steps to settle and 3e4 more (a minute or two; the full case asks for 1e5 grains and 1e6 steps) at the production step, 20 %
+/// Rayleigh.
 TEST(Rest, TwoThousandGrainsStayPut) { EXPECT_TRUE(at_rest(rest(2000, .5, .2, 20000, 30000))); }
-/// The same check on a small bed, at the lowest restitution that the production step stands (.44 is the powder's), and for a strongly damped one at half
-/// that step. Negative control: strong damping at 60 % of the Rayleigh time chatters from step to step (the damper is explicit: with damping ratio zeta the
-/// limit of the step shrinks by sqrt(1 + zeta^2) - zeta) and never rests.
+/// The same check on a small bed, at the lowest restitution that the production step stands (.44 is the powder's), and for a strongly damped one at
+/// half that step. Negative control: strong damping at 60 % of the Rayleigh time chatters from step to step (the damper is explicit: with damping
+/// ratio zeta the limit of the step shrinks by sqrt(1 + zeta^2) - zeta) and never rests.
 TEST(Rest, DampingAndStep) {
   EXPECT_TRUE(at_rest(rest(300, .44, .2, 20000, 10000)));
   EXPECT_TRUE(at_rest(rest(300, .2, .1, 40000, 20000)));

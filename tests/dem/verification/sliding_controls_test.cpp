@@ -11,8 +11,9 @@ namespace {
 const Ball kPowder{1e7, .25, 1900, 2e-4};
 double textbook(double e) { return -std::log(e) / std::hypot(std::log(e), std::numbers::pi); }
 
-/// |F_t| <= mu F_n and |M_r| <= mu_r R* F_n at every step of oblique, spinning impacts, springs and dampers together. Walls: rounding, 1e-12. Pairs: their
-/// two parts are read back from the force by the full-step normal, while the damper acts across the half-step normal: half the turn of a step, 5e-5 here.
+/// |F_t| <= mu F_n and |M_r| <= mu_r R* F_n at every step of oblique, spinning impacts, springs and dampers together. Walls: rounding, 1e-12. Pairs:
+/// their two parts are read back from the force by the full-step normal, while the damper acts across the half-step normal: half the turn of a step,
+/// 5e-5 here.
 bool within(double size, double limit, double slack = 1e-12) { return size <= limit * (1 + slack); }
 TEST(Caps, HoldAtEveryStepForForceAndTorque) {
   int sliding = 0, rolling = 0;
@@ -61,8 +62,8 @@ TEST(Caps, UncappedRollingDampingIsRejected) {
   }
 }
 
-/// Two aluminium-alloy spheres, +-.2 m/s, both spins 10 rad/s: gross sliding, so |dv_t| / (mu |dv_n|) = 1 whatever the model; 2e-3. The engine passes in
-/// oblique_impact_test.cpp; here the independent integrator with the engine's rule passes the same check and hits the published figures, and the
+/// Two aluminium-alloy spheres, +-.2 m/s, both spins 10 rad/s: gross sliding, so |dv_t| / (mu |dv_n|) = 1 whatever the model; 2e-3. The engine passes
+/// in oblique_impact_test.cpp; here the independent integrator with the engine's rule passes the same check and hits the published figures, and the
 /// tangential damper outside the cap gives the published 1.172, or 1.139 when the normal force is clamped: rejected.
 slow::Pair same_sense(double beta, bool clamp, slow::Sliding sliding) {
   const Ball& b = kAluminiumAlloy;
@@ -91,8 +92,8 @@ TEST(SlidingImpulse, FrictionTimesNormalImpulseAndUncappedDampingIsRejected) {
   EXPECT_NEAR(pulling, 1.172, 5e-3);
 }
 
-/// Angular momentum of unequal spheres 1:3 in an oblique impact: 1e-10 of the change of spin (conservation_test.cpp holds the engine to the same). The
-/// pair lever R - d/2 keeps it, a lever R for both loses about d / R: more for softer grains. The overlap over the radius is measured beside.
+/// Angular momentum of unequal spheres 1:3 in an oblique impact: 1e-10 of the change of spin (conservation_test.cpp holds the engine to the same).
+/// The pair lever R - d/2 keeps it, a lever R for both loses about d / R: more for softer grains. The overlap over the radius is measured beside.
 TEST(Lever, FullRadiusForAPairIsRejected) {
   struct Row {
     double young, speed;
@@ -119,7 +120,8 @@ TEST(Lever, FullRadiusForAPairIsRejected) {
     EXPECT_LT(lost[1], depth);
   }
 }
-/// On walls the lever is R: sliding spin change 5/2 mu (1 + e) v_n / R, in Chung & Ooi's test 5 R w / (mu V_n) = 5 to 0.1 %. A lever R - d gives 4.9735.
+/// On walls the lever is R: sliding spin change 5/2 mu (1 + e) v_n / R, in Chung & Ooi's test 5 R w / (mu V_n) = 5 to 0.1 %. A lever R - d
+/// gives 4.9735.
 TEST(Lever, OverlapTakenOffOnAWallIsRejected) {
   const Ball steel{2.08e11, .3, 7850, 1e-5};
   auto is_five = [](double x) { return std::abs(x - 5) <= 5e-3; };
@@ -142,8 +144,8 @@ TEST(Lever, OverlapTakenOffOnAWallIsRejected) {
   }
 }
 
-/// Torsion is off: a bead that spins about the normal keeps its spin to 1e-12 (rolling_test.cpp). With the rolling torque taken about every axis it would
-/// stop within 5/2 mu_r g t / R.
+/// Torsion is off: a bead that spins about the normal keeps its spin to 1e-12 (rolling_test.cpp). With the rolling torque taken about every axis it
+/// would stop within 5/2 mu_r g t / R.
 TEST(Torsion, RollingTorqueAboutTheNormalIsRejected) {
   const Ball bead{1e7, .25, 2500, 1e-3};
   for (const double torsion : {0., 1.}) {

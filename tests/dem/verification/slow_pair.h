@@ -1,6 +1,6 @@
 #pragma once
-/// Small, slow, obvious integrator of TWO free spheres (Hertz, tangential spring, no rolling friction), with the faults of known codes as switches. It
-/// shares no code with the engine: a negative control is this integrator with one fault, put to the same check as the engine.
+/// Small, slow, obvious integrator of TWO free spheres (Hertz, tangential spring, no rolling friction), with the faults of known codes as switches.
+/// It shares no code with the engine: a negative control is this integrator with one fault, put to the same check as the engine.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -85,8 +85,6 @@ struct Pair {
     for (int k = 0; k < longest && !(met && !touching); ++k) step(dt), met = met || touching;
     if (!met || touching) a.v = b.v = Vec3::Constant(std::nan(""));
   }
-  Vec3 angular_momentum() const {
-    return a.mass * a.x.cross(a.v) + b.mass * b.x.cross(b.v) + a.inertia() * a.w + b.inertia() * b.w;
-  }
+  Vec3 angular_momentum() const { return a.mass * a.x.cross(a.v) + b.mass * b.x.cross(b.v) + a.inertia() * a.w + b.inertia() * b.w; }
 };
 }  // namespace venato::dem::slow

@@ -16,8 +16,8 @@ struct Model {
   bool half_step_normal = true;       ///< false: the standard scheme, history grows along the full-step normal
   bool cap_rolling_damping = true;    ///< false: spring torque capped, damping torque added on top of it until mobilised
   bool tangential_damping = true;
-  bool twist = false;          ///< spring turned about the normal by half the sphere's spin about it (mean spin of the two bodies)
-  bool rolling_spring = true;  ///< false: CDT, a constant torque against the spin
+  bool twist = false;           ///< spring turned about the normal by half the sphere's spin about it (mean spin of the two bodies)
+  bool rolling_spring = true;   ///< false: CDT, a constant torque against the spin
   double wall_lever_share = 0;  ///< torque arm on the plane R - share * overlap; 1 = lever R - d of some codes
   double torsion = 0;           ///< > 0: rolling torque not taken across the normal (friction about the normal as well)
 };
@@ -50,7 +50,8 @@ struct Body {
       return;
     }
     ++touching;
-    const double d = -gap, r_eff = f.radius > 0 ? radius * f.radius / (radius + f.radius) : radius, arm = radius - (f.radius > 0 ? .5 : model.wall_lever_share) * d;
+    const double d = -gap, r_eff = f.radius > 0 ? radius * f.radius / (radius + f.radius) : radius,
+                 arm = radius - (f.radius > 0 ? .5 : model.wall_lever_share) * d;
     const double k_n = 4.0 / 3 * model.young_eff * std::sqrt(r_eff * d), k_t = 8 * model.shear_eff * std::sqrt(r_eff * d);
     const double c = 2 * std::sqrt(5.0 / 6) * model.beta;
     const Vec3 n = normal_to(f, x), across = model.half_step_normal ? normal_to(f, x - 0.5 * dt * v) : n;

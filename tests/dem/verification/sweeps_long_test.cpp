@@ -22,20 +22,20 @@ slow::Body slow_ball(const Ball& b, double beta, double mu, double v_n, double v
   body.forces(0);
   return body;
 }
-/// Chung & Ooi test 4 at every published angle: against the published figures of the engine's variant (rescaled incremental spring; where the variants
-/// agree the one figure stands for all), 0.3 %, rebound angle 0.3 % of 90 deg; against the paper's own DEM curve (digitised; a displacement spring, so from
-/// 15 deg on) 2.5 % of e_t and of the largest spin, 1.2 deg. And every degree against the independent integrator: 0.3 % (of v for e_t near its zero slope).
+/// Chung & Ooi test 4 at every published angle: against the published figures of the engine's variant (rescaled incremental spring; where the
+/// variants agree the one figure stands for all), 0.3 %, rebound angle 0.3 % of 90 deg; against the paper's own DEM curve (digitised; a displacement
+/// spring, so from 15 deg on) 2.5 % of e_t and of the largest spin, 1.2 deg. And every degree against the independent integrator: 0.3 % (of v for e_t
+/// near its zero slope).
 TEST(ChungOoi, Test4AtEveryAngle) {
   const double none = 1e9;
-  const double table[][7] = {
-      {2, .8705, -17.62, none, none, none, none},         {5, .8583, -48.16, none, none, none, none},
-      {10, .7145, -193.4, none, none, none, none},        {15, .6348, -368.6, none, .624, -378, none},
-      {20, .6226, -503.4, -6.79, .616, -510.6, -7.54},    {25, .6397, -593.9, -7.08, .634, -599.4, -7.54},
-      {30, .6845, -615.3, -3.52, .684, -616.5, -3.55},    {35, .7398, -582.0, 3.66, .737, -582.3, 3.43},
-      {40, .7829, -544.2, 11.62, .781, -544.8, 11.57},    {45, .8178, -502.4, 20.29, none, none, none},
-      {50, .8471, -456.7, 29.49, .845, -457, 29.35},      {60, .8948, -355.2, 48.16, .893, -357.5, 47.8},
-      {70, .9337, -243.0, 65.08, .932, -246.2, 64.6},     {80, .9679, -123.4, 78.98, .966, -126.3, 78.7},
-      {85, .9841, -61.9, 84.81, .983, -63.1, 84.5}};
+  const double table[][7] = {{2, .8705, -17.62, none, none, none, none},      {5, .8583, -48.16, none, none, none, none},
+                             {10, .7145, -193.4, none, none, none, none},     {15, .6348, -368.6, none, .624, -378, none},
+                             {20, .6226, -503.4, -6.79, .616, -510.6, -7.54}, {25, .6397, -593.9, -7.08, .634, -599.4, -7.54},
+                             {30, .6845, -615.3, -3.52, .684, -616.5, -3.55}, {35, .7398, -582.0, 3.66, .737, -582.3, 3.43},
+                             {40, .7829, -544.2, 11.62, .781, -544.8, 11.57}, {45, .8178, -502.4, 20.29, none, none, none},
+                             {50, .8471, -456.7, 29.49, .845, -457, 29.35},   {60, .8948, -355.2, 48.16, .893, -357.5, 47.8},
+                             {70, .9337, -243.0, 65.08, .932, -246.2, 64.6},  {80, .9679, -123.4, 78.98, .966, -126.3, 78.7},
+                             {85, .9841, -61.9, 84.81, .983, -63.1, 84.5}};
   auto run = [](double deg) {
     const double v_t = 3.9 * std::sin(deg * kDegree);
     const Impact hit = hit_plane(kAluminiumOxide, {.98008, .092, 0, 0}, 3.9 * std::cos(deg * kDegree), v_t, 0, 4000);
@@ -75,7 +75,8 @@ TEST(ChungOoi, Test5WholeMawPlot) {
 }
 
 /// No impact makes energy: Chung & Ooi's sphere at 1 ... 89 deg by 2, six frictions, three spins, four restitutions, 4000 steps per contact:
-/// (KE after - before) / before <= 1e-6. The part left without the normal motion (tangential and spin) may not grow by more than 1e-6 of the whole either.
+/// (KE after - before) / before <= 1e-6. The part left without the normal motion (tangential and spin) may not grow by more than 1e-6 of the whole
+/// either.
 TEST(EnergyGrowth, NeverInTheWholeSweep) {
   double worst = -1, worst_part = -1;
   for (const double e : {1., .98, .8, .5})
@@ -94,13 +95,13 @@ TEST(EnergyGrowth, NeverInTheWholeSweep) {
   EXPECT_GT(worst, -1e-3);  // there are cases that lose next to nothing
 }
 
-/// Ai et al., all ten points of the regime map: launched up-slope at .5 m/s without spin, eta_r = .3, state after 1 s. 1 %; zeros 1 % of the launch speed. The
-/// spin at 20 deg, mu_r = .24 is the engine's capped variant's (see rolling_test.cpp), .2195.
+/// Ai et al., all ten points of the regime map: launched up-slope at .5 m/s without spin, eta_r = .3, state after 1 s. 1 %; zeros 1 % of the launch
+/// speed. The spin at 20 deg, mu_r = .24 is the engine's capped variant's (see rolling_test.cpp), .2195.
 TEST(Ai, WholeRegimeMap) {
   const Ball ball{1e9, .3, 5 / (4. / 3 * std::numbers::pi * .008), .2};
-  const double table[][4] = {{5, 0, -.2529, -.2529},    {5, .05, -.1697, -.1697},  {5, .1, 0, 0},          {10, .05, -.6744, -.6744},
-                             {15, .2, -.4143, -.4143},  {20, .2, -.9797, -.9797},  {20, .24, -.9623, -.2195}, {20, .3, -.9634, 0},
-                             {30, .15, -2.557, -1.9459}, {40, .1, -4.1107, -2.6099}};
+  const double table[][4] = {
+      {5, 0, -.2529, -.2529},   {5, .05, -.1697, -.1697},  {5, .1, 0, 0},       {10, .05, -.6744, -.6744},  {15, .2, -.4143, -.4143},
+      {20, .2, -.9797, -.9797}, {20, .24, -.9623, -.2195}, {20, .3, -.9634, 0}, {30, .15, -2.557, -1.9459}, {40, .1, -4.1107, -2.6099}};
   for (const auto& row : table) {
     const double a = row[0] * kDegree, g = 9.8;
     Simulation sim(scene::setup(2e-5, on_rigid(ball, {.5, .25, row[1], .3}), g * Vec3(-std::sin(a), 0, -std::cos(a))));
@@ -113,8 +114,8 @@ TEST(Ai, WholeRegimeMap) {
   }
 }
 
-/// Size-ratio trap at R_L / r = 20: with the half-step normal the time of lift-off does not depend on the step, 5e-6 ... 2e-7 s: .1505 s, 2 %. (The standard
-/// scheme never lets go at steps of 4e-7 and more: conservation_test.cpp.)
+/// Size-ratio trap at R_L / r = 20: with the half-step normal the time of lift-off does not depend on the step, 5e-6 ... 2e-7 s: .1505 s, 2 %. (The
+/// standard scheme never lets go at steps of 4e-7 and more: conservation_test.cpp.)
 TEST(SizeRatioTrap, LiftOffDoesNotDependOnTheStep) {
   const double r = .25e-3, ratio = 20, m = 4. / 3 * std::numbers::pi * r * r * r * 2500, reach = (ratio + 1) * r;
   const double height = std::sqrt(reach * reach - ratio * ratio * r * r), f = m * 9.81 / (2 * height / reach);

@@ -30,12 +30,12 @@ Flight fly(double strength, double drive = 1) {
   }
   return f;
 }
-/// Take-off at asin(1 / strength), landing after a free flight: exact for a hard grain, .2 %. E = 100 GPa: the static overlap is 1e-5 of the amplitude.
-/// Negative control: an amplitude 1 % too small.
+/// Take-off at asin(1 / strength), landing after a free flight: exact for a hard grain, .2 %. E = 100 GPa: the static overlap is 1e-5 of the
+/// amplitude. Negative control: an amplitude 1 % too small.
 TEST(VibratingPlate, TakeOffAndLanding) {
   const double table[][3] = {
       {1.2, .985111, 3.387416}, {1.5, .729728, 4.295944}, {2.0, .523599, 5.182450}, {2.5, .411517, 5.798153}, {3.0, .339837, 6.307445}};
-  auto as_table = [](const Flight& f, const double (&row)[3]) { return std::abs(f.off / row[1] - 1) <= 2e-3 && std::abs(f.on / row[2] - 1) <= 2e-3; };
+  auto as_table = [](const Flight& f, const double(&row)[3]) { return std::abs(f.off / row[1] - 1) <= 2e-3 && std::abs(f.on / row[2] - 1) <= 2e-3; };
   for (const auto& row : table) {
     const Flight f = fly(row[0]);
     EXPECT_TRUE(as_table(f, row)) << row[0] << ": " << f.off << " " << f.on;
@@ -43,10 +43,10 @@ TEST(VibratingPlate, TakeOffAndLanding) {
   EXPECT_FALSE(as_table(fly(1.5, .99), table[1]));
 }
 
-/// A grain in a cylinder that turns about its own axis rests where friction and rolling friction balance: tan(phi) = mu_r (R* = R) on the rising side, the
-/// grain rolling with the wall, its centre at rest. From that place and spin it must stay (1 % of mu_r over 4 turns of the cylinder and .4 s, about
-/// 6 periods of the swing it would make), for any speed; with mu_r = 0 that place is phi = 0. Negative control: the same grain without rolling friction
-/// leaves it at once.
+/// A grain in a cylinder that turns about its own axis rests where friction and rolling friction balance: tan(phi) = mu_r (R* = R) on the rising
+/// side, the grain rolling with the wall, its centre at rest. From that place and spin it must stay (1 % of mu_r over 4 turns of the cylinder and .4
+/// s, about 6 periods of the swing it would make), for any speed; with mu_r = 0 that place is phi = 0. Negative control: the same grain without
+/// rolling friction leaves it at once.
 double farthest_off(double rate, double mu_r_place, double mu_r) {
   const Ball ball{1e7, .25, 1900, 5e-4};
   const double r_c = .01, phi = std::atan(mu_r_place), m = ball.mass(), dt = 4e-6;
@@ -74,9 +74,9 @@ TEST(TurningCylinder, OneGrainRestsAtTheRollingFriction) {
   EXPECT_GT(farthest_off(63, 0, .1), .1);
 }
 
-/// Energy that walls put in: the books close and the work is the integral of force times velocity (torque times rotation), taken here from wall_load() and
-/// the motion by the trapezoid, independent of the books: 1e-3. The books close to 1.5e-3 of what they turn over, at 500 steps per contact (they are first
-/// order in the step: 5e-3 at 100). Twelve grains in a cup on a shaker, and in a cylinder that turns.
+/// Energy that walls put in: the books close and the work is the integral of force times velocity (torque times rotation), taken here from
+/// wall_load() and the motion by the trapezoid, independent of the books: 1e-3. The books close to 1.5e-3 of what they turn over, at 500 steps per
+/// contact (they are first order in the step: 5e-3 at 100). Twelve grains in a cup on a shaker, and in a cylinder that turns.
 struct Work {
   double book, integral, balance, dissipated;
 };

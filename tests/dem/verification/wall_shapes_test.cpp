@@ -1,4 +1,5 @@
-/// Walls against each other: fine meshes, huge spheres and planes are the same wall; what a bump, a bend or another R* would do is seen by the same checks.
+/// Walls against each other: fine meshes, huge spheres and planes are the same wall; what a bump, a bend or another R* would do is seen by the same
+/// checks.
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -36,8 +37,8 @@ bool same_path(const Path& a, const Path& b) {
     same = (a.position[k] - b.position[k]).norm() <= 1e-12 && (a.spin[k] - b.spin[k]).norm() <= 1e-6 && (a.force[k] - b.force[k]).norm() <= 1e-12;
   return same;
 }
-/// z = 0 over [-3, 3] mm squared cut into triangles of about a third of the grain's radius, corners jittered; every second row of quads shifted by half
-/// a quad, so the rows meet in T-junctions. `bump`: height of the corner nearest the origin.
+/// z = 0 over [-3, 3] mm squared cut into triangles of about a third of the grain's radius, corners jittered; every second row of quads shifted by
+/// half a quad, so the rows meet in T-junctions. `bump`: height of the corner nearest the origin.
 std::vector<Triangle> fine_floor(double bump) {
   const int n = 60;
   const double pitch = 1e-4;
@@ -59,8 +60,8 @@ std::vector<Triangle> fine_floor(double bump) {
     }
   return all;
 }
-/// A grain rolls, slides and comes to rest over hundreds of edges, corners and T-junctions of a flat mesh as on the plane. Negative control: one corner
-/// 10 nm high (1/30 000 of the radius) is seen by the same check.
+/// A grain rolls, slides and comes to rest over hundreds of edges, corners and T-junctions of a flat mesh as on the plane. Negative control: one
+/// corner 10 nm high (1/30 000 of the radius) is seen by the same check.
 TEST(Mesh, HundredsOfSmallTrianglesAreThePlane) {
   const Vec3 paths[][2] = {{Vec3(-1e-3, 0, 0), Vec3(.12, 0, 0)},  // along a line of T-junctions
                            {Vec3(-1e-3, -.8e-3, 0), Vec3(.1, .08, 0)},
@@ -79,18 +80,21 @@ TEST(Mesh, HundredsOfSmallTrianglesAreThePlane) {
 
 std::vector<Wall> two_plates(double step_m) {
   auto plate = [&](double from, double to, double z) {
-    Wall w = scene::mesh({{Vec3(from, -4e-3, z), Vec3(to, -4e-3, z), Vec3(to, 4e-3, z)}, {Vec3(from, -4e-3, z), Vec3(to, 4e-3, z), Vec3(from, 4e-3, z)}});
+    Wall w =
+        scene::mesh({{Vec3(from, -4e-3, z), Vec3(to, -4e-3, z), Vec3(to, 4e-3, z)}, {Vec3(from, -4e-3, z), Vec3(to, 4e-3, z), Vec3(from, 4e-3, z)}});
     w.material = 1;
     return w;
   };
   return {plate(-4e-3, 0, 0), plate(0, 4e-3, step_m)};
 }
-/// Two walls (two machine parts) whose plates lie in one plane and meet at x = 0: a grain that rolls over the seam has one contact all the way and goes as
-/// on the plane, up to the springs, which may restart at the seam: 1 % of the way, no hop (1 % of the static overlap at rest is 6e-10 m, the hop of a
-/// doubled contact 37 % of the overlap). Disabled: wall_forces() removes doubled touches within one wall only, so near the seam (within sqrt(2 R d) of it)
-/// both plates push. The fix belongs there: collect the touches of all walls, nearest first, and drop one whose point lies on a nearer wall.
+/// Two walls (two machine parts) whose plates lie in one plane and meet at x = 0: a grain that rolls over the seam has one contact all the way and
+/// goes as on the plane, up to the springs, which may restart at the seam: 1 % of the way, no hop (1 % of the static overlap at rest is 6e-10 m, the
+/// hop of a doubled contact 37 % of the overlap). Disabled: wall_forces() removes doubled touches within one wall only, so near the seam (within
+/// sqrt(2 R d) of it) both plates push. The fix belongs there: collect the touches of all walls, nearest first, and drop one whose point lies on a
+/// nearer wall.
 TEST(Seam, DISABLED_TwoCoplanarWallsAreOneFloor) {
-  const Path plane = roll({rigid_plane()}, Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250), seam = roll(two_plates(0), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250);
+  const Path plane = roll({rigid_plane()}, Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250),
+             seam = roll(two_plates(0), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250);
   EXPECT_EQ(seam.most_contacts, 1u);
   const double overlap = static_overlap(kPowder, kPowder.mass() * kG);
   for (std::size_t k = 0; k < plane.position.size(); ++k) {
@@ -99,8 +103,8 @@ TEST(Seam, DISABLED_TwoCoplanarWallsAreOneFloor) {
   }
   EXPECT_GT(plane.position.back().x(), 5e-4);
 }
-/// What that costs, as a bound that holds with or without the doubling: the grain crosses the seam, loses at most 2 % of the way it makes on the plane,
-/// hops by no more than the static overlap, and never has more than two contacts. A real step of half an overlap fails.
+/// What that costs, as a bound that holds with or without the doubling: the grain crosses the seam, loses at most 2 % of the way it makes on the
+/// plane, hops by no more than the static overlap, and never has more than two contacts. A real step of half an overlap fails.
 TEST(Seam, TwoCoplanarWallsAreAlmostOneFloor) {
   const double overlap = static_overlap(kPowder, kPowder.mass() * kG);
   const Path plane = roll({rigid_plane()}, Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250);
@@ -114,8 +118,8 @@ TEST(Seam, TwoCoplanarWallsAreAlmostOneFloor) {
   EXPECT_FALSE(almost(roll(two_plates(20 * overlap), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250)));
 }
 
-/// A plane is a sphere of infinite radius. A rigid frozen sphere of 4000 radii: R* differs by 2.5e-4, the lever R - d/2 from R by d / 2R = 6e-4 here; so
-/// 1e-3 of each measure after an oblique, spinning impact, in sticking and in sliding. Negative control: a sphere of ten radii is not a plane.
+/// A plane is a sphere of infinite radius. A rigid frozen sphere of 4000 radii: R* differs by 2.5e-4, the lever R - d/2 from R by d / 2R = 6e-4 here;
+/// so 1e-3 of each measure after an oblique, spinning impact, in sticking and in sliding. Negative control: a sphere of ten radii is not a plane.
 TEST(WallAndSphere, ThePlaneIsAHugeSphere) {
   const double v = .02, dt = hertz_duration(kPowder.mass(), kPowder.radius, kPowder.plane_modulus(), v) / 1500;
   for (const double angle_deg : {3., 15., 60.}) {
@@ -144,8 +148,9 @@ TEST(WallAndSphere, ThePlaneIsAHugeSphere) {
   }
 }
 
-/// Inside a cylinder R* = R by decision (as LIGGGHTS): the overlap at rest is that on a plane to 1e-9 of the cylinder (walls_test.cpp); the exact Hertz R* =
-/// 1 / (1/R - 1/R_c) would give another overlap, which that check must see. Also straight against curved: on the floor of a cylinder of 4000 radii.
+/// Inside a cylinder R* = R by decision (as LIGGGHTS): the overlap at rest is that on a plane to 1e-9 of the cylinder (walls_test.cpp); the exact
+/// Hertz R* = 1 / (1/R - 1/R_c) would give another overlap, which that check must see. Also straight against curved: on the floor of a cylinder of
+/// 4000 radii.
 TEST(Cylinder, RestsAsOnThePlaneAndExactHertzWouldBeSeen) {
   const double r_c = .01, d = static_overlap(kPowder, kPowder.mass() * kG), r_exact = 1 / (1 / kPowder.radius - 1 / r_c);
   Simulation sim(scene::setup(2e-6, on_rigid(kPowder, {.2, .5, .1, .3}), Vec3(0, 0, -kG)));
