@@ -1,6 +1,6 @@
 /// Bits do not depend on the number of threads over 10^5 steps with rebuilds: a difference in any order of summation would have grown to order one
-/// long before (the motion is chaotic: times e in about a millisecond of 250 steps). 520 grains are three blocks of work; more threads than blocks
-/// take part in what is shared otherwise.
+/// long before (the motion is chaotic: times e in about a millisecond of 250 steps). 300 grains are two blocks of
+/// work: threads beyond that must not make a difference either (threads_test.cpp gives eight threads work).
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -10,11 +10,11 @@
 namespace venato::dem {
 namespace {
 std::vector<std::uint64_t> hashes(int threads) {
-  Simulation sim = scene::stirred_heap(520, threads);
+  Simulation sim = scene::stirred_heap(300, threads);
   std::vector<std::uint64_t> all;
   for (int k = 0; k < 5; ++k) sim.step(20000), all.push_back(sim.state_hash());
   EXPECT_GT(sim.statistics().list_builds, 500);
-  EXPECT_GT(sim.statistics().contact_count, 200);
+  EXPECT_GT(sim.statistics().contact_count, 100);
   return all;
 }
 TEST(Threads, HundredThousandStepsAreTheSameBytes) {

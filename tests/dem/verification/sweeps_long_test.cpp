@@ -45,10 +45,18 @@ TEST(ChungOoi, Test4AtEveryAngle) {
     const Rebound r = run(row[0]);
     EXPECT_NEAR(r.e_t / row[1], 1, 3e-3) << row[0];
     EXPECT_NEAR(r.spin / row[2], 1, 3e-3) << row[0];
-    if (row[3] != none) EXPECT_NEAR(r.angle, row[3], .27) << row[0];
-    if (row[4] != none) EXPECT_NEAR(r.e_t / row[4], 1, 2.5e-2) << row[0];
-    if (row[5] != none) EXPECT_NEAR(r.spin, row[5], 2.5e-2 * 616) << row[0];
-    if (row[6] != none) EXPECT_NEAR(r.angle, row[6], 1.2) << row[0];
+    if (row[3] != none) {
+      EXPECT_NEAR(r.angle, row[3], .27) << row[0];
+    }
+    if (row[4] != none) {
+      EXPECT_NEAR(r.e_t / row[4], 1, 2.5e-2) << row[0];
+    }
+    if (row[5] != none) {
+      EXPECT_NEAR(r.spin, row[5], 2.5e-2 * 616) << row[0];
+    }
+    if (row[6] != none) {
+      EXPECT_NEAR(r.angle, row[6], 1.2) << row[0];
+    }
   }
   for (int deg = 1; deg < 90; ++deg) {
     const double v_n = 3.9 * std::cos(deg * kDegree), v_t = 3.9 * std::sin(deg * kDegree);
@@ -70,7 +78,9 @@ TEST(ChungOoi, Test5WholeMawPlot) {
     const GrainState a = hit_plane(steel, {1, mu, 0, 0}, v_n, psi * mu * v_n, 0, 4000).a;
     const double engine = (a.velocity_m_s.x() - steel.radius * a.spin_rad_s.y()) / (mu * v_n), slow = (b.v.x() - steel.radius * b.w.y()) / (mu * v_n);
     EXPECT_NEAR(engine, slow, std::max(2e-3, 5e-3 * std::abs(slow))) << psi;
-    if (psi >= 6.5) EXPECT_NEAR(engine, psi - 7, 1e-3 * psi) << psi;
+    if (psi >= 6.5) {
+      EXPECT_NEAR(engine, psi - 7, 1e-3 * psi) << psi;
+    }
   }
 }
 
