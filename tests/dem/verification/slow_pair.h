@@ -15,10 +15,9 @@ enum class Sliding {
 };
 struct PairModel {
   double young_eff = 0, shear_eff = 0, beta = 0, friction = 0;
-  bool clamp = true;            ///< false: the normal force may pull
-  double lever_share = 0.5;     ///< torque arm R - share * overlap; 0 = lever R, which does not keep angular momentum
-  double damping_factor = 1;    ///< 2 / sqrt(5) = the linear-spring formula on a Hertz contact (MFIX)
-  double damping_friction = 1;  ///< factor on the tangential damping
+  bool clamp = true;          ///< false: the normal force may pull
+  double lever_share = 0.5;   ///< torque arm R - share * overlap; 0 = lever R, which does not keep angular momentum
+  double damping_factor = 1;  ///< 2 / sqrt(5) = the linear-spring formula on a Hertz contact (MFIX)
   Sliding sliding = Sliding::spring_cut;
   bool rescale = true;  ///< spring force shrinks with the stiffness on unloading
 };
@@ -63,7 +62,7 @@ struct Pair {
     const bool slips = spring.norm() > cap;
     if (slips) f = spring *= cap / spring.norm();
     if (!slips) {
-      f -= model.damping_friction * c * std::sqrt(k_t * m) * slide;
+      f -= c * std::sqrt(k_t * m) * slide;
       if (model.sliding == Sliding::spring_cut && f.norm() > cap) f *= cap / f.norm();
     }
     a.force = f - normal * n, b.force = -a.force;
