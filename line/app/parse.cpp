@@ -54,7 +54,18 @@ Parsed parse(int argc, const char* const* argv) {
   auto* dem = app.add_subcommand("dem", "one particle simulation (slice, rig, hopper)");
   dem->add_option("CASE", o.input, "case file (format venato-dem)")->required();
   add_out(*dem, o), add_set(*dem, o), add_common(*dem, o);
-  dem->footer("Example:\n  venato dem configs/dem/lifted_cylinder.json -o out/heap\nWrites HDF5, CSV and, when the case asks for them, ParaView files.");
+  auto* go_on = dem->add_flag("--resume", o.resume, "go on from where an earlier run of this case was stopped (bit for bit); without one, start");
+  dem->add_flag("--restart", o.restart, "throw away what an earlier run of this case left and begin anew")->excludes(go_on);
+  dem->add_option("--until", o.until_s, "stop at this simulated time with results so far and a checkpoint; --resume goes on from it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("TIME_S");
+  dem->add_flag("--profile", o.profile, "show how the time is spent, by phase of the step");
+  dem->footer(
+      "Examples:\n  venato dem configs/dem/lifted_cylinder.json -o out/heap\n  venato dem configs/dem/lifted_cylinder.json -o out/heap --until 0.4\n"
+      "  venato dem configs/dem/lifted_cylinder.json -o out/heap --resume\n"
+      "Writes result.h5, kpi.csv, series and counters as CSV, plots (SVG) and, when the case asks for them, pictures (PNG) and ParaView files\n"
+      "(open vtk/grains.pvd). A stopped run (Ctrl-C, kill, --until) leaves a checkpoint in the store; the same case then needs --resume or "
+      "--restart.");
 
   auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab");
   sync->add_option("--vein-map", o.vein_map, "vein map or picture of the slab (TIFF, PNG, JPEG)")->required()->type_name("V");

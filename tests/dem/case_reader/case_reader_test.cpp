@@ -38,7 +38,7 @@ TEST(CaseReader, every_ready_case_is_valid_and_has_a_cost) {
     const Case c = load_case(entry.path());
     EXPECT_EQ(c.name, entry.path().stem().string());
     const CaseCost cost = estimate_cost(c, 2);
-    EXPECT_TRUE(cost.seconds > 0 && cost.seconds < 60) << entry.path() << " " << cost.seconds;  // ready cases are small
+    EXPECT_TRUE(cost.seconds > 0 && cost.seconds < 300) << entry.path() << " " << cost.seconds;  // ready cases take minutes
   }
   EXPECT_GE(cases, 2);
 }
@@ -77,7 +77,7 @@ TEST(CaseReader, slot_hopper_in_si) {
   EXPECT_EQ(c.counters[0].axis, 2);
   EXPECT_TRUE(c.counters[0].remove);
   EXPECT_NEAR(c.counters[0].position_m, 2e-3, 1e-15);
-  ASSERT_EQ(c.snapshots.size(), 1u);
+  ASSERT_EQ(c.snapshots.size(), 2u);  // its own, and one frame that the rig takes the bulk density from
   EXPECT_EQ(c.vtk_every_s, 0);
   EXPECT_EQ(c.time_step_s, 0);
 }
@@ -121,7 +121,7 @@ TEST(CaseReader, cylinder_and_plane) {
   EXPECT_EQ(std::get<PlaneShape>(c.walls[0].shape).normal, Vec3(0, 0, 1));
   const auto& tube = std::get<CylinderShape>(c.walls[1].shape);
   EXPECT_NEAR(tube.radius_m, 9e-3, 1e-15);
-  EXPECT_NEAR(tube.length_m, 50e-3, 1e-15);
+  EXPECT_NEAR(tube.length_m, 82e-3, 1e-15);
   EXPECT_TRUE(tube.inside);
 }
 
