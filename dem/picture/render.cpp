@@ -122,8 +122,16 @@ void draw_wall(Canvas& c, const Triangle& t) {
     }
 }
 
-void draw_edge(Canvas& c, const Vec3& from, const Vec3& to, int thickness) {
-  const Vec3 a = c.place(from), b = c.place(to);
+void draw_edge(Canvas& c, const PictureScene& scene, const Vec3& from, const Vec3& to, int thickness) {
+  double low = 0, high = 1;  // the part of the edge inside the region (Liang & Barsky)
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = to[axis] - from[axis], first = scene.low[axis] - from[axis], last = scene.high[axis] - from[axis];
+    if (along == 0 && (first > 0 || last < 0)) return;
+    if (along == 0) continue;
+    low = std::max(low, std::min(first / along, last / along)), high = std::min(high, std::max(first / along, last / along));
+  }
+  if (low > high) return;
+  const Vec3 a = c.place(from + low * (to - from)), b = c.place(from + high * (to - from));
   const int n = std::max(1, static_cast<int>(std::ceil(std::max(std::abs(b.x() - a.x()), std::abs(b.y() - a.y())))));
   if (n > 100000) return;
   for (int i = 0; i <= n; ++i) {
@@ -138,8 +146,8 @@ void draw_edge(Canvas& c, const Vec3& from, const Vec3& to, int thickness) {
   }
 }
 
-/// Borders and creases: edges of one triangle only, or between facets at an angle.
-void draw_edges(Canvas& c, const std::vector<Triangle>& walls, int thickness) {
+/// Borders, creases and outlines: edges of one triangle only, between facets at an angle, or where a curved wall turns away from the viewer.
+void draw_edges(Canvas& c, const PictureScene& scene, int thickness) {
   using Key = std::array<double, 6>;
   const auto key = [](const Vec3& a, const Vec3& b) {
     const std::array<double, 3> p{a.x(), a.y(), a.z()}, q{b.x(), b.y(), b.z()};
@@ -148,22 +156,23 @@ void draw_edges(Canvas& c, const std::vector<Triangle>& walls, int thickness) {
     return Key{first[0], first[1], first[2], second[0], second[1], second[2]};
   };
   struct Seen {
-    Vec3 normal;
+    Vec3 normal = Vec3::Zero();
     int facets = 0;
     bool crease = false;
   };
   std::map<Key, Seen> edges;
-  for (const Triangle& t : walls) {
+  for (const Triangle& t : scene.walls) {
     const Vec3 n = (t.b - t.a).cross(t.c - t.a).normalized();
     const std::pair<Vec3, Vec3> sides[] = {{t.a, t.b}, {t.b, t.c}, {t.c, t.a}};
     for (const auto& [a, b] : sides) {
       Seen& seen = edges[key(a, b)];
-      if (++seen.facets > 1 && std::abs(seen.normal.dot(n)) < kCreaseCos) seen.crease = true;
+      const bool outline = seen.normal.dot(c.camera.toward) * n.dot(c.camera.toward) < 0;  // one facet is seen from its front, one from its back
+      if (++seen.facets > 1 && (outline || std::abs(seen.normal.dot(n)) < kCreaseCos)) seen.crease = true;
       seen.normal = n;
     }
   }
   for (const auto& [k, seen] : edges)
-    if (seen.facets == 1 || seen.crease) draw_edge(c, Vec3(k[0], k[1], k[2]), Vec3(k[3], k[4], k[5]), thickness);
+    if (seen.facets == 1 || seen.crease) draw_edge(c, scene, Vec3(k[0], k[1], k[2]), Vec3(k[3], k[4], k[5]), thickness);
 }
 
 RgbImage shrink(const Canvas& c, int by, int extra_rows) {
@@ -215,23 +224,26 @@ void annotate(RgbImage& image, const PictureScene& scene, int top, int size) {
 
 bool inside(const Vec3& p, const PictureScene& s) { return (p.array() >= s.low.array()).all() && (p.array() <= s.high.array()).all(); }
 
-/// The parts of walls inside the region, coarsely: triangles are cut by dividing them until small and keeping those whose middle is inside.
-void cut_wall(const Triangle& t, const PictureScene& s, int depth, std::vector<Triangle>& out) {
-  const bool a = inside(t.a, s), b = inside(t.b, s), c = inside(t.c, s);
-  if (a && b && c) {
-    out.push_back(t);
-    return;
-  }
-  const Vec3 low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
-  if ((low.array() > s.high.array()).any() || (high.array() < s.low.array()).any()) return;
-  if (depth == 0) {
-    if (inside((t.a + t.b + t.c) / 3, s)) out.push_back(t);
-    return;
-  }
-  const Vec3 ab = 0.5 * (t.a + t.b), bc = 0.5 * (t.b + t.c), ca = 0.5 * (t.c + t.a);
-  for (const Triangle& part : {Triangle{t.a, ab, ca}, Triangle{ab, t.b, bc}, Triangle{ca, bc, t.c}, Triangle{ab, bc, ca}})
-    cut_wall(part, s, depth - 1, out);
+/// The part of a triangle inside the region (Sutherland & Hodgman: cut by one face after the other), as a fan of triangles.
+std::vector<Triangle> cut_wall(const Triangle& t, const PictureScene& s) {
+  std::vector<Vec3> polygon{t.a, t.b, t.c};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      const double face = sign > 0 ? s.low[axis] : -s.high[axis];
+      std::vector<Vec3> kept;
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec3 &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+        const double dp = sign * p[axis] - face, dq = sign * q[axis] - face;
+        if (dp >= 0) kept.push_back(p);
+        if ((dp >= 0) != (dq >= 0)) kept.push_back(p + dp / (dp - dq) * (q - p));
+      }
+      polygon = std::move(kept);
+    }
+  std::vector<Triangle> parts;
+  for (std::size_t k = 2; k < polygon.size(); ++k) parts.push_back({polygon[0], polygon[k - 1], polygon[k]});
+  return parts;
 }
+
 }  // namespace
 
 RgbImage render(const PictureScene& scene, const PictureStyle& style) {
@@ -240,12 +252,9 @@ RgbImage render(const PictureScene& scene, const PictureStyle& style) {
   const Vec3 light = Vec3(-0.4, 0.55, 0.75).normalized();  // from the upper left, towards the viewer
   for (const PictureGrain& g : scene.grains)
     if (inside(g.position_m, scene)) draw_grain(c, g, light);
-  for (const Triangle& t : scene.walls) {
-    std::vector<Triangle> parts;
-    cut_wall(t, scene, 4, parts);
-    for (const Triangle& part : parts) draw_wall(c, part);
-  }
-  draw_edges(c, scene.walls, style.supersample);
+  for (const Triangle& t : scene.walls)
+    for (const Triangle& part : cut_wall(t, scene)) draw_wall(c, part);
+  draw_edges(c, scene, style.supersample);
   const int size = std::max(1, style.width_px / 450);
   RgbImage image = shrink(c, style.supersample, style.annotate ? 20 * size : 0);
   if (style.annotate) annotate(image, scene, image.height - 20 * size, size);

@@ -7,7 +7,6 @@ void read(ObjectReader& r, Config& c) {
   r.number("fit_from", c.fit_from, {0, 0.9, ""}, {.help = "foot of the fitted flank, share of the apex height", .fallback = 0.15});
   r.number("fit_to", c.fit_to, {0.1, 1, ""}, {.help = "top of the fitted flank, share of the apex height", .fallback = 0.80});
   r.number("ring_width_mm", c.ring_width_m, {0, 1e4, "mm"}, {.help = "rings of the profile; 0 = one mean grain", .fallback = 0.0});
-  if (36 % c.wedges != 0) r.issue("wedges", "does not divide 36", "the profile has sectors of 10 degrees: 3, 4, 6, 9, 12, 18 or 36 wedges");
   if (!(c.fit_to > c.fit_from)) r.issue("fit_to", "is not above fit_from", "e.g. 0.15 and 0.80");
 }
 

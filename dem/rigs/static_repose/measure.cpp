@@ -8,10 +8,10 @@
 
 namespace venato::dem::rigs::static_repose {
 namespace {
-constexpr std::size_t kSectors = 36;
 constexpr double kDeg = 180 / std::numbers::pi, kMm = 1e3;
 // A heap in which grains still travel one diameter per second is not at rest.
 constexpr double kRestingDiametersPerSecond = 1;
+constexpr double kPixel = 0.25;  // of a mean grain: of the map of heights
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Place {
@@ -27,11 +27,38 @@ Vec3 axis_of(const std::vector<GrainRecord>& grains) {
   }
   return sum / volume;
 }
+double angle_of(double x, double y) {
+  const double angle = std::atan2(y, x);
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+std::size_t wedge_of(double angle, int wedges) {
+  return static_cast<std::size_t>(std::min(wedges - 1, static_cast<int>(angle / (2 * std::numbers::pi) * wedges)));
+}
 Place place_of(const GrainRecord& g, const Vec3& axis) {
   const double x = g.position_m.x() - axis.x(), y = g.position_m.y() - axis.y();
-  double angle = std::atan2(y, x);
-  if (angle < 0) angle += 2 * std::numbers::pi;
-  return {std::hypot(x, y), angle};
+  return {std::hypot(x, y), angle_of(x, y)};
+}
+
+/// Heap seen from above: height of the highest sphere over each pixel, 0 where there is none; square, centred on the axis.
+std::vector<double> height_map(const std::vector<GrainRecord>& grains, const Vec3& axis, double floor_z, double reach, double grain) {
+  const double pixel = grain * kPixel;
+  const auto half = static_cast<std::ptrdiff_t>(std::ceil(reach / pixel)), side = 2 * half;
+  std::vector<double> map(static_cast<std::size_t>(side * side), 0);
+  for (const GrainRecord& g : grains) {
+    const double r = 0.5 * g.diameter_m, x = (g.position_m.x() - axis.x()) / pixel + static_cast<double>(half);
+    const double y = (g.position_m.y() - axis.y()) / pixel + static_cast<double>(half), span = r / pixel;
+    const auto first = [&](double at) { return std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(std::floor(at - span))); };
+    const auto last = [&](double at) { return std::min(side - 1, static_cast<std::ptrdiff_t>(std::ceil(at + span))); };
+    for (std::ptrdiff_t j = first(y); j <= last(y); ++j)
+      for (std::ptrdiff_t i = first(x); i <= last(x); ++i) {
+        const double dx = (static_cast<double>(i) + 0.5 - x) * pixel, dy = (static_cast<double>(j) + 0.5 - y) * pixel,
+                     rest = r * r - dx * dx - dy * dy;
+        if (rest <= 0) continue;
+        double& height = map[static_cast<std::size_t>(j * side + i)];
+        height = std::max(height, g.position_m.z() + std::sqrt(rest) - floor_z);
+      }
+  }
+  return map;
 }
 
 /// Angle of the cone with the same first moments: mean height H / 4, mean distance from the axis R / 2. Per wedge: where its own grains lie.
@@ -39,7 +66,7 @@ double moment_angle_deg(const std::vector<GrainRecord>& grains, const Vec3& axis
   double volume = 0, height = 0, radius = 0;
   for (const GrainRecord& g : grains) {
     const Place p = place_of(g, axis);
-    if (wedge >= 0 && static_cast<int>(p.angle / (2 * std::numbers::pi) * wedges) % wedges != wedge) continue;
+    if (wedge >= 0 && wedge_of(p.angle, wedges) != static_cast<std::size_t>(wedge)) continue;
     const double v = std::pow(g.diameter_m, 3);
     volume += v, height += v * (g.position_m.z() - floor_z), radius += v * p.radius;
   }
@@ -57,24 +84,30 @@ Profile heap_profile(const std::vector<GrainRecord>& grains, const Config& c) {
   const Vec3 axis = axis_of(grains);
   double farthest = 0;
   for (const GrainRecord& g : grains) farthest = std::max(farthest, place_of(g, axis).radius);
-  const auto rings = static_cast<std::size_t>(farthest / width) + 1;
-  std::vector<double> top(rings * kSectors, 0);
-  for (const GrainRecord& g : grains) {
-    const Place at = place_of(g, axis);
-    const auto ring = std::min(rings - 1, static_cast<std::size_t>(at.radius / width));
-    const auto sector = std::min(kSectors - 1, static_cast<std::size_t>(at.angle / (2 * std::numbers::pi) * kSectors));
-    double& cell = top[ring * kSectors + sector];
-    cell = std::max(cell, g.position_m.z() + 0.5 * g.diameter_m - c.floor_z_m);
-  }
-  const auto wedges = static_cast<std::size_t>(c.wedges), per_wedge = kSectors / wedges;
+  const auto rings = static_cast<std::size_t>(farthest / width) + 1, wedges = static_cast<std::size_t>(c.wedges);
+  const std::vector<double> height = height_map(grains, axis, c.floor_z_m, static_cast<double>(rings) * width, p.grain_m);
+  const double pixel = p.grain_m * kPixel;
+  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(height.size()))));
+  std::vector<double> sum(rings * wedges, 0), count(rings * wedges, 0);
+  for (std::size_t j = 0; j < side; ++j)
+    for (std::size_t i = 0; i < side; ++i) {
+      const double x = (static_cast<double>(i) + 0.5 - 0.5 * static_cast<double>(side)) * pixel;
+      const double y = (static_cast<double>(j) + 0.5 - 0.5 * static_cast<double>(side)) * pixel;
+      const auto ring = static_cast<std::size_t>(std::hypot(x, y) / width);
+      if (ring >= rings) continue;
+      const std::size_t wedge = wedge_of(angle_of(x, y), c.wedges);
+      sum[ring * wedges + wedge] += height[j * side + i], count[ring * wedges + wedge] += 1;
+    }
   p.height_m.assign(rings, 0);
   p.wedge_height_m.assign(wedges, std::vector<double>(rings, 0));
   for (std::size_t k = 0; k < rings; ++k) {
     p.radius_m.push_back((static_cast<double>(k) + 0.5) * width);
-    for (std::size_t s = 0; s < kSectors; ++s) {
-      p.height_m[k] += top[k * kSectors + s] / kSectors;
-      p.wedge_height_m[std::min(wedges - 1, s / per_wedge)][k] += top[k * kSectors + s] / static_cast<double>(per_wedge);
+    double all = 0, pixels = 0;
+    for (std::size_t w = 0; w < wedges; ++w) {
+      all += sum[k * wedges + w], pixels += count[k * wedges + w];
+      p.wedge_height_m[w][k] = count[k * wedges + w] > 0 ? sum[k * wedges + w] / count[k * wedges + w] : 0;
     }
+    p.height_m[k] = pixels > 0 ? all / pixels : 0;
   }
   return p;
 }
@@ -138,7 +171,7 @@ RigResult measure(const Config& config, const Case& c, const CaseResult& r) {
 
   RigTable table{"heap_profile",
                  {{"radius_mm", "mm", "middle of the ring", {}},
-                  {"height_mm", "mm", "height of the surface, mean over the sectors", {}},
+                  {"height_mm", "mm", "height of the surface, mean over the ring", {}},
                   {"standard_error_mm", "mm", "of the height, from the wedges", {}}}};
   Series points{"heap", {}, {}, {}, {}, SeriesStyle::points, ""}, line{"flank", {}, {}, {}, {}, SeriesStyle::line, ""};
   for (std::size_t k = 0; k < p.radius_m.size(); ++k) {

@@ -12,11 +12,11 @@ struct Config {
 };
 void read(ObjectReader& r, Config& c);
 
-/// Profile of a heap about its own axis (mean x, y of the grains by volume): highest top of a grain in each cell (ring x 10-degree sector), mean over
-/// the sectors. Cells without a grain have the height of the plate.
+/// Profile of a heap about its own axis (mean x, y of the grains by volume): the heap seen from above (height of the highest sphere at each point, the
+/// plate's where there is none), mean over rings.
 struct Profile {
   std::vector<double> radius_m;                     ///< middle of each ring
-  std::vector<double> height_m;                     ///< mean over all sectors
+  std::vector<double> height_m;                     ///< mean over the ring
   std::vector<std::vector<double>> wedge_height_m;  ///< [wedge][ring]
   double grain_m = 0;                               ///< diameter of the mean grain volume
 };

@@ -25,18 +25,18 @@ auto cone(double angle_deg, double foot_m) {
 }
 
 TEST(StaticRepose, a_cone_has_its_angle) {
-  constexpr double kGrain = 2e-4, kFoot = 0.02;
+  constexpr double kGrain = 3e-4, kFoot = 0.02;
   const Case c = synthetic::mono_case(kGrain);
   for (const double angle : {15.0, 25.0, 35.0}) {
-    const RigResult out = measure({}, c, heap(300000, kFoot, kGrain, cone(angle, kFoot)));
-    // The highest of some dozen random grains of a cell lies below the surface by a grain or so, nearly the same in all rings: measured bias < 0.7
-    // deg.
-    EXPECT_NEAR(kpi(out.kpis, "repose_angle_deg").value, angle, 0.8) << angle;
-    // Moments are exact for a cone but for 300000 random draws: 0.19 % of the tangent, 0.05 degrees; four of them.
+    const RigResult out = measure({}, c, heap(120000, kFoot, kGrain, cone(angle, kFoot)));
+    // The highest grain of a cell lies as far below the surface in all rings, so the slope is not biased; measured deviation 0.15 degrees.
+    EXPECT_NEAR(kpi(out.kpis, "repose_angle_deg").value, angle, 0.3) << angle;
+    // Moments are exact for a cone but for 120000 random draws: 0.3 % of the tangent, 0.08 degrees; three of them.
     EXPECT_NEAR(kpi(out.kpis, "repose_angle_by_moments_deg").value, angle, 0.2) << angle;
     EXPECT_LT(kpi(out.kpis, "repose_angle_deg").standard_error, 0.3);
     EXPECT_GT(kpi(out.kpis, "repose_angle_deg").standard_error, 0);
-    EXPECT_NEAR(kpi(out.kpis, "heap_foot_radius_mm").value, 20, 0.6);
+    // Seen from above the surface lies within a grain below the cone: at 15 degrees the foot moves in by at most grain / tan(15).
+    EXPECT_NEAR(kpi(out.kpis, "heap_foot_radius_mm").value, 20, 1.1);
     EXPECT_TRUE(out.warnings.empty()) << out.warnings.front();
     ASSERT_EQ(out.plots.size(), 1u);
     EXPECT_EQ(out.tables.at(0).columns.at(1).values.size(), out.plots[0].plot.series[0].y.size());
@@ -46,8 +46,9 @@ TEST(StaticRepose, a_lopsided_heap_has_a_large_error_bar) {
   constexpr double kGrain = 2e-4, kFoot = 0.02;
   const Case c = synthetic::mono_case(kGrain);
   const auto lopsided = [&](double r, double angle) { return (kFoot - r) * std::tan((25 + 6 * std::cos(angle)) * kDeg); };
-  const RigResult out = measure({}, c, heap(300000, kFoot, kGrain, lopsided));
-  EXPECT_NEAR(kpi(out.kpis, "repose_angle_deg").value, 25, 1.5);
+  const RigResult out = measure({}, c, heap(100000, kFoot, kGrain, lopsided));
+  // The axis of such a heap is its centre of mass, which lies towards the steep side: the mean angle about it is a little above 25.
+  EXPECT_NEAR(kpi(out.kpis, "repose_angle_deg").value, 26, 1.5);
   // Six wedges whose angles follow a cosine of 6 degrees: sd 4.6 (sinc of a wedge and the moved axis included), over sqrt(6) 1.7.
   EXPECT_NEAR(kpi(out.kpis, "repose_angle_deg").standard_error, 1.7, 0.9);
 }
@@ -60,13 +61,13 @@ TEST(StaticRepose, what_is_no_cone_warns) {
     return false;
   };
   // A dome: its flank is bent by far more than a grain.
-  const auto dome = heap(200000, 0.02, kGrain, [](double r, double) { return std::sqrt(std::max(0.0, 4e-4 - r * r)) * 0.9; });
+  const auto dome = heap(60000, 0.02, kGrain, [](double r, double) { return std::sqrt(std::max(0.0, 4e-4 - r * r)) * 0.9; });
   EXPECT_TRUE(warned(dome, "this is no cone"));
   // A block with upright sides has no flank at all.
-  const auto block = heap(200000, 0.02, kGrain, [](double, double) { return 0.01; });
+  const auto block = heap(60000, 0.02, kGrain, [](double, double) { return 0.01; });
   EXPECT_TRUE(std::isnan(kpi(measure({}, c, block).kpis, "repose_angle_deg").value));
   EXPECT_TRUE(warned(block, "fewer than three rings"));
-  auto moving = heap(100000, 0.02, kGrain, cone(25, 0.02));
+  auto moving = heap(60000, 0.02, kGrain, cone(25, 0.02));
   EXPECT_FALSE(warned(moving, "still moves"));
   for (GrainRecord& g : moving.final_state) g.velocity_m_s = Vec3(0.01, 0, 0);
   EXPECT_TRUE(warned(moving, "still moves"));
