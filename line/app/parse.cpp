@@ -47,9 +47,10 @@ Parsed parse(int argc, const char* const* argv) {
   add_set(*validate, o), add_common(*validate, o);
   validate->footer("Example:\n  venato validate configs/demo_slab.json --set /chain/3/peak_pressure_mpa=45");
 
-  auto* describe = app.add_subcommand("describe-config", "reference of every key of a line config");
+  auto* describe = app.add_subcommand("describe-config", "reference of every key of a line config or a DEM case");
   describe->add_flag("--schema", o.schema, "as JSON Schema for editors");
-  describe->footer("Example:\n  venato describe-config --schema > venato-line.schema.json");
+  describe->add_flag("--dem", o.dem, "of a DEM case instead of a line");
+  describe->footer("Example:\n  venato describe-config --schema > venato-line.schema.json\n  venato describe-config --dem");
 
   auto* dem = app.add_subcommand("dem", "one particle simulation (slice, rig, hopper)");
   dem->add_option("CASE", o.input, "case file (format venato-dem)")->required();

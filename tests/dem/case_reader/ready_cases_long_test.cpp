@@ -13,18 +13,18 @@
 
 namespace venato::dem {
 namespace {
-struct Run {
+struct Done {
   Case c;
   CaseResult result;
   CaseReport report;
   const Kpi& kpi(const std::string& name) const { return synthetic::kpi(report.kpis, name); }
 };
-Run run(const char* file, const char* coarse_graining) {
+Done run(const char* file, const char* coarse_graining) {
   const auto log = make_null_log();
   const auto progress = make_null_progress();
   const auto folder = std::filesystem::temp_directory_path() / ("venato_ready_cases_long_" + std::to_string(::getpid()));
   Store store(folder);
-  Run r;
+  Done r;
   r.c = load_case(std::filesystem::path(VENATO_SOURCE_DIR) / "configs/dem" / file, {{"/coarse_graining", coarse_graining}});
   Context context{*log, *progress, store, r.c.seed, 1, nullptr};
   r.result = run_case(r.c, {}, context);
@@ -40,7 +40,7 @@ void expect_error_bar(const Kpi& k, double largest) {
 }
 
 TEST(ReadyCases, the_slot_discharges_as_beverloo_says) {
-  const Run r = run("slot_hopper.json", "2");
+  const Done r = run("slot_hopper.json", "2");
   EXPECT_NEAR(r.result.mass_removed_kg / r.result.mass_put_in_kg, 1, 1e-12);  // it runs empty
   const Kpi& flow = r.kpi("flow_at_6_mm_g_s");
   // Slot law W = 1.03 rho_b sqrt(g) L (B - k d)^1.5 with k = 1.4, slot 8 mm (periodic: no k d taken off) x 6 mm. Bulk density 0.58 of the grain's;
@@ -54,7 +54,7 @@ TEST(ReadyCases, the_slot_discharges_as_beverloo_says) {
 }
 
 TEST(ReadyCases, the_lifted_cylinder_leaves_a_heap_at_rest) {
-  const Run r = run("lifted_cylinder.json", "3.3");
+  const Done r = run("lifted_cylinder.json", "3.3");
   EXPECT_EQ(r.result.mass_lost_box_kg, 0);
   // The band is what powders with sliding friction 0.5 and rolling friction 0.25 do; a heap of five grains height is lower than a large one.
   const Kpi &angle = r.kpi("repose_angle_deg"), &moments = r.kpi("repose_angle_by_moments_deg");
@@ -68,7 +68,7 @@ TEST(ReadyCases, the_lifted_cylinder_leaves_a_heap_at_rest) {
 }
 
 TEST(ReadyCases, four_holes_follow_beverloo) {
-  const Run r = run("discharge_holes.json", "3.3");
+  const Done r = run("discharge_holes.json", "3.3");
   double before = 0;
   for (const char* size : {"6", "7.5", "9", "10.5"}) {
     const Kpi& flow = r.kpi(std::string("flow_at_") + size + "_mm_g_s");
@@ -84,7 +84,7 @@ TEST(ReadyCases, four_holes_follow_beverloo) {
 }
 
 TEST(ReadyCases, the_drum_gets_steeper_with_speed) {
-  const Run r = run("rotating_drum.json", "3.3");
+  const Done r = run("rotating_drum.json", "3.3");
   const Kpi &slow = r.kpi("dynamic_angle_at_10_rpm_deg"), &fast = r.kpi("dynamic_angle_at_60_rpm_deg");
   for (const Kpi* k : {&slow, &fast}) {
     EXPECT_GT(k->value, 24);
@@ -95,7 +95,7 @@ TEST(ReadyCases, the_drum_gets_steeper_with_speed) {
 }
 
 TEST(ReadyCases, tapping_makes_the_bed_denser) {
-  const Run r = run("tapped_density.json", "3.3");
+  const Done r = run("tapped_density.json", "3.3");
   const Kpi &poured = r.kpi("poured_density_kg_m3"), &tapped = r.kpi("tapped_density_kg_m3"), &ratio = r.kpi("hausner_ratio");
   // Random loose to random close packing (0.50 … 0.64 and a little more for mixed sizes, a little less at the walls of a tube of 12 grains).
   EXPECT_GT(poured.value, 0.48 * 1900);
@@ -109,7 +109,7 @@ TEST(ReadyCases, tapping_makes_the_bed_denser) {
 }
 
 TEST(ReadyCases, powder_leaves_the_inclined_wall_between_rolling_and_sliding_friction) {
-  const Run r = run("inclined_wall.json", "2.5");
+  const Done r = run("inclined_wall.json", "2.5");
   const Kpi& angle = r.kpi("slide_angle_deg");
   // Single grains roll off at atan 0.1 = 5.7 degrees; the powder holds itself a little, but not beyond the sliding friction of the wall (16.7).
   EXPECT_GT(angle.value, 5.7);
