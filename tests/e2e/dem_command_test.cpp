@@ -12,7 +12,8 @@ namespace {
 const std::string kHeap = "dem '" VENATO_SOURCE_DIR
                           "/configs/dem/lifted_cylinder.json' --set /coarse_graining=6 --set /duration_s=0.4 --set /fills/0/mass_g=1.5 --set "
                           "/materials/0/young_modulus_mpa=1 --set "
-                          "/walls/1/motion/translate_when_s=[[0.15,0.4]] --set '/snapshots=[]' --set /pictures/every_s=0.1 --set /vtk/every_s=0.05 ";
+                          "/walls/1/motion/translate_when_s=[[0.15,0.4]] --set '/snapshots=[]' --set /pictures/every_s=0.1 --set "
+                          "/pictures/width_px=200 --set /vtk/every_s=0.05 ";
 
 fs::path checkpoint_of(const TempFolder& t) {
   for (const auto& e : fs::recursive_directory_iterator(t / ".store"))
@@ -102,6 +103,14 @@ TEST(DemCommand, two_processes_do_not_share_one_case) {
     EXPECT_FALSE(fs::exists(t / "other"));
   }
   EXPECT_EQ(run_venato(t, kHeap + "-o @/other --resume --until 0.06").code, 0);  // negative control: it was the lock
+}
+TEST(DemCommand, its_keys_are_described) {
+  TempFolder t;
+  const Ran text = run_venato(t, "describe-config --dem"), schema = run_venato(t, "describe-config --dem --schema");
+  ASSERT_EQ(text.code, 0) << text.err;
+  for (const char* key : {"/rig/kind", "tapped_density", "/pictures/every_s", "/smallest_opening_mm", "/walls/N/motion/tapping"})
+    EXPECT_NE(text.out.find(key), std::string::npos) << key;
+  EXPECT_TRUE(nlohmann::json::parse(schema.out).at("properties").contains("rig"));
 }
 TEST(DemCommand, bad_options_exit_with_two) {
   TempFolder t;
