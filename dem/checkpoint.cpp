@@ -10,7 +10,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::uint64_t kMagic = 0x3144504b43454456ull;  // "VDECKPD1"
+constexpr std::uint64_t kMagic = 0x3244504b43454456ull;  // "VDECKPD2"
 
 void exchange_text(ByteWriter& a, const std::string& s) {
   a.value(static_cast<std::uint64_t>(s.size()));
@@ -23,7 +23,7 @@ void exchange(Archive& a, Run& r) {
   a.list(r.births), a.list(r.rains), a.list(r.waiting);
   for (auto& s : r.seen) a.list(s);
   a.list(r.counter_mass_kg), a.list(r.impulse_before);
-  a.value(r.sampled_at_s), a.value(r.samples), a.list(r.frames), a.list(r.vtk_times_s), a.value(r.delayed_hand_overs);
+  a.value(r.sampled_at_s), a.value(r.samples), a.list(r.frames), a.list(r.vtk_times_s), a.value(r.pictures), a.value(r.delayed_hand_overs);
   auto& o = r.result;
   for (auto& list : o.records) a.list(list);
   auto& s = o.series;
@@ -70,7 +70,7 @@ std::uint64_t case_fingerprint(const Case& c) {
     w.value(g.time_s), w.value(g.position_m), w.value(g.velocity_m_s), w.value(g.spin_rad_s), w.value(g.diameter_m), w.value(g.species);
   for (const Counter& k : c.counters)
     w.value(k.axis), w.value(k.position_m), w.value(k.sign), w.value(k.window_low), w.value(k.window_high), w.value(k.remove), w.value(k.first_only);
-  w.value(c.series.every_s), w.list(c.snapshots), w.value(c.vtk_every_s);
+  w.value(c.series.every_s), w.list(c.snapshots), w.value(c.vtk_every_s), w.value(c.pictures.every_s);
   std::uint64_t h = 14695981039346656037ull;
   for (const std::uint8_t b : w.bytes) h = (h ^ b) * 1099511628211ull;
   return h;

@@ -103,7 +103,7 @@ class Keeper {
     }
     if (stop)
       throw Interrupted("DEM case '" + run_.c.name + "' stopped at t = " + std::to_string(run_.sim.time_s()) + " s" +
-                        (file.empty() ? "" : "; the next run goes on from " + file.string()));
+                        (file.empty() ? "" : "; its state is in " + file.string()));
   }
 
  private:
@@ -134,17 +134,29 @@ CaseRun::CaseRun(const Case& case_, const RunOptions& options_, Context& context
   result.snapshots.resize(c.snapshots.size());
 }
 
+namespace {
+void resume(CaseRun& run, std::int64_t steps) {
+  load_checkpoint(run, run.options.checkpoint);
+  char line[200];
+  std::snprintf(line, sizeof line, "dem %s  goes on from t = %.6g s (%.0f %% of its steps)", run.c.name.c_str(), run.sim.time_s(),
+                100.0 * static_cast<double>(run.sim.step_number()) / static_cast<double>(steps));
+  run.context.log.info(line);
+}
+}  // namespace
+
 CaseResult run_case(const Case& c, const RunOptions& options, Context& context) {
   check_case(c);
   const double dt = c.time_step_s > 0 ? c.time_step_s : choose_time_step(c);
   CaseRun run(c, options, context, dt);
   const std::int64_t steps = static_cast<std::int64_t>(std::ceil(c.duration_s / dt * (1 - 1e-12)));
   if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint))
-    load_checkpoint(run, options.checkpoint);
+    resume(run, steps);
   else
     fill_regions(run);
-  Keeper keeper(run, steps);
-  while (run.sim.step_number() < steps) {
+  const std::int64_t until = options.until_s > 0 ? static_cast<std::int64_t>(std::ceil(options.until_s / dt * (1 - 1e-12))) : steps;
+  const std::int64_t last = std::min(steps, std::max(until, run.sim.step_number()));
+  Keeper keeper(run, last);
+  while (run.sim.step_number() < last) {
     if (run.sim.step_number() % kClockEvery == 0) keeper.look();
     rain_and_hand_over(run);
     observe(run);
@@ -154,12 +166,17 @@ CaseResult run_case(const Case& c, const RunOptions& options, Context& context) 
     count_crossings(run);
     if (run.sim.step_number() % kOutflowEvery == 0) remove_outside(run);
   }
-  if (!options.checkpoint.empty() && options.keep_checkpoint) save_checkpoint(run, options.checkpoint);
+  run.result.complete = last == steps;
+  const bool keep = options.keep_checkpoint || !run.result.complete;
+  // Before the last look: a run that goes on from here has not had it.
+  if (!options.checkpoint.empty() && keep) save_checkpoint(run, options.checkpoint);
+  const std::int64_t pictures_before = run.pictures;
   observe(run);
+  if (run.c.pictures.every_s > 0 && run.options.on_picture && run.pictures == pictures_before) take_picture(run);  // the end is always shown
   finish_result(run);
   run.result.wall_clock_s = keeper.elapsed_s();
   if (options.profile) log_profile(run);
-  if (!options.checkpoint.empty() && !options.keep_checkpoint) std::filesystem::remove(options.checkpoint);
+  if (!options.checkpoint.empty() && !keep) std::filesystem::remove(options.checkpoint);
   return std::move(run.result);
 }
 }  // namespace venato::dem

@@ -60,6 +60,7 @@ struct CaseRun {
   std::int64_t samples = 0;
   std::vector<std::int64_t> frames;  ///< [plan]
   std::vector<double> vtk_times_s;
+  std::int64_t pictures = 0;  ///< taken so far
   std::int64_t delayed_hand_overs = 0;
   std::uint8_t speed_warned = 0;
 
@@ -88,4 +89,14 @@ void save_checkpoint(const CaseRun& run, const std::filesystem::path& file);
 void load_checkpoint(CaseRun& run, const std::filesystem::path& file);
 // run_case_vtk.cpp
 void write_vtk(CaseRun& run);
+/// Walls as they stand now, in triangles.
+struct WallTriangles {
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> wall;
+};
+WallTriangles present_walls(const CaseRun& run);
+/// Position wrapped back into the box: what one wants to look at.
+Vec3 in_box(const Box& box, Vec3 position);
+// run_case_picture.cpp
+void take_picture(CaseRun& run);
 }  // namespace venato::dem

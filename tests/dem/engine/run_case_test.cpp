@@ -231,6 +231,35 @@ TEST(RunCase, ResumedAndThreadedRunsGiveTheSameBytes) {
   EXPECT_EQ(bytes_of(*resumed), bytes_of(whole));
   EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
 }
+TEST(RunCase, UntilStopsThereAndGoesOnBitForBit) {
+  Bench b;
+  std::filesystem::create_directories(b.folder);
+  const Case c = rainy_hopper();
+  const CaseResult whole = run_case(c, {}, b.context);
+  EXPECT_TRUE(whole.complete);
+  RunOptions options;
+  options.checkpoint = b.folder / "case.ckpt";
+  options.until_s = 0.0123;
+  const CaseResult part = run_case(c, options, b.context);
+  EXPECT_FALSE(part.complete);
+  EXPECT_NEAR(part.end_time_s, 0.0123, 1.01 * part.time_step_s);
+  EXPECT_GE(part.end_time_s, 0.0123 * (1 - 1e-12));
+  expect_book(part);
+  ASSERT_TRUE(std::filesystem::exists(options.checkpoint));
+  // Asking for an earlier time does not go back, and does not change what comes after.
+  options.until_s = 0.005;
+  EXPECT_NEAR(run_case(c, options, b.context).end_time_s, part.end_time_s, 1e-15);
+  options.until_s = 0.02;
+  EXPECT_FALSE(run_case(c, options, b.context).complete);
+  options.until_s = 0;
+  b.context.threads = 2;
+  const CaseResult resumed = run_case(c, options, b.context);
+  EXPECT_TRUE(resumed.complete);
+  EXPECT_EQ(bytes_of(resumed), bytes_of(whole));
+  EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
+  options.until_s = 1;  // beyond the end: an ordinary run
+  EXPECT_EQ(bytes_of(run_case(c, options, b.context)), bytes_of(whole));
+}
 TEST(RunCase, CheckpointOfAnotherCaseIsRefused) {
   Bench b;
   std::filesystem::create_directories(b.folder);
