@@ -8,7 +8,7 @@ namespace venato::dem {
 
 /// Writes what `venato dem` leaves in its folder (made when missing): result.h5, kpi.csv, series.csv, counter_<name>.csv, and the plots
 /// counter_mass.svg, flow_rate.svg, kinetic_energy.svg, profile_<n>_velocity.svg and profile_<n>_solid_fraction.svg (one pair per snapshot plan
-/// with at least 3 frames). Same case and result, same bytes; no wall-clock times. \throws WorkError, UsageError naming the file.
+/// with at least 3 frames), fields_plateau.svg and fields_stress.svg (with Case::fields). Same case and result, same bytes; no wall-clock times. \throws WorkError, UsageError naming the file.
 void write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r);
 
 /// One line of kpi.csv; standard_error NaN = not known (empty in the file).
