@@ -9,16 +9,32 @@ namespace venato::dem {
 namespace {
 constexpr int kScanSteps = 10;  // of sqrt(2), from an eighth to four times
 
-/// x and y averaged over; cells of the smallest width, so that they never blur more than the kernel.
+/// x and y averaged over; cells of half a width, whose mean adds 1 % to the kernel's width.
 ContinuumGrid profile_grid(const Box& box, double width_m, double cell_m) {
   return make_continuum_grid(box, Vec3(box.high.x() - box.low.x(), box.high.y() - box.low.y(), cell_m), width_m);
 }
 std::vector<ContinuumSums> scan_of(const Box& box, double width_m) {
   std::vector<ContinuumSums> scan;
   const std::vector<double> widths = plateau_widths(width_m);
-  for (const double w : widths) scan.emplace_back(profile_grid(box, w, widths.front()));
+  for (const double w : widths) scan.emplace_back(profile_grid(box, w, 0.5 * w));
   return scan;
 }
+
+/// Linear between the centres of the cells of a profile.
+struct HeightLookup {
+  HeightLookup(const ContinuumGrid& grid, double z_m) {
+    const double last = std::max(0.0, grid.n[2] - 1.0), g = std::clamp((z_m - grid.low.z()) / grid.cell_m.z() - 0.5, 0.0, last);
+    below = static_cast<std::size_t>(g);
+    above = std::min(below + 1, static_cast<std::size_t>(last));
+    share = g - static_cast<double>(below);
+  }
+  template <class F>
+  double of(const F& f) const {
+    return above == below ? f(below) : (1 - share) * f(below) + share * f(above);
+  }
+  std::size_t below, above;
+  double share;
+};
 
 WindowFields diffusivity_of(const Box& box, const FieldPlan& plan, double coarse_graining, const std::vector<Snapshot>& frames) {
   const Vec3 size = box.high - box.low;
@@ -84,11 +100,11 @@ FieldResult FieldRecorder::finish() const {
   r.plateau.z_m = mass > 0 ? height / mass : 0.5 * (box_.low.z() + box_.high.z());
   for (const ContinuumSums& s : scan_) {
     const ContinuumFields f = continuum_fields(s);
-    const auto cell = static_cast<std::size_t>(std::clamp((r.plateau.z_m - f.grid.low.z()) / f.grid.cell_m.z(), 0.0, f.grid.n[2] - 1.0));
+    const HeightLookup at(f.grid, r.plateau.z_m);
     r.plateau.width_m.push_back(f.grid.width_m);
-    r.plateau.density_kg_m3.push_back(f.density_kg_m3[cell]);
-    r.plateau.stress_zz_pa.push_back(f.kinetic_stress_pa[cell][8] + f.contact_stress_pa[cell][8]);
-    r.plateau.temperature_m2_s2.push_back(f.temperature_m2_s2[cell]);
+    r.plateau.density_kg_m3.push_back(at.of([&](std::size_t c) { return f.density_kg_m3[c]; }));
+    r.plateau.stress_zz_pa.push_back(at.of([&](std::size_t c) { return f.kinetic_stress_pa[c][8] + f.contact_stress_pa[c][8]; }));
+    r.plateau.temperature_m2_s2.push_back(at.of([&](std::size_t c) { return f.temperature_m2_s2[c]; }));
   }
   if (plan_.diffusivity && frames_.size() >= 3) r.diffusivity = diffusivity_of(box_, plan_, coarse_graining_, frames_);
   return r;
