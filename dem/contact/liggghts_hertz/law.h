@@ -71,7 +71,7 @@ struct LiggghtsHertz {
   ContactLoss loss(const ContactGeometry& g, const ContactHistory& before, const ContactHistory& after, const ContactForce& f, double dt) const {
     const Stiffness k = stiffness(g), old = stiffness(g, before.contact_radius);
     ContactGeometry still = g;
-    still.turn = Trio(0, 0, 0);  // springs are projected, not turned
+    still.turn = {};  // springs are projected, not turned
     const double ratio = displacement_ratio(k.radius, before.contact_radius);
     const SpringLoss t = spring_loss(before.spring, after.spring, f.tangential, still, ratio, g.slide, old.tangential, k.tangential, dt);
     const SpringLoss r = spring_loss(before.rolling, after.rolling, f.rolling, still, 1, g.roll, old.rolling, k.rolling, dt);

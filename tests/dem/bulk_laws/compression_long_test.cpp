@@ -18,7 +18,7 @@ TEST(Compression, plates_and_contacts_carry_the_same_stress) {
   sim.set_gravity(Vec3::Zero());  // one stress over the height
   double surface = 0;
   for (const GrainState& g : sim.grains()) surface = std::max(surface, g.position_m.z() + g.radius_m);
-  const double speed = 0.02;  // inertial number of the strain rate: see below
+  const double speed = 0.004;  // slow: the inertial number is checked below
   Wall lid = plane(Vec3(0, 0, surface), -Vec3::UnitZ());
   lid.motion.velocity_m_s = Vec3(0, 0, -speed);
   lid.motion.translate_when = {{sim.time_s(), 1e9}};
@@ -26,14 +26,10 @@ TEST(Compression, plates_and_contacts_carry_the_same_stress) {
   std::vector<double> strain, stress;
   double worst_field = 0, worst_plates = 0, inertial = 0;
   for (int k = 0; k < 70; ++k) {
-    double floor = 0, top = 0;
-    const int steps = 200;
-    for (int q = 0; q < steps; ++q) {
-      sim.step();
-      floor -= sim.wall_load(floor_at).force_n.z() / steps, top += sim.wall_load(lid_at).force_n.z() / steps;
-    }
+    const int steps = 1000;
+    sim.step(steps);
     const double area = kSide * kSide, height = surface + sim.wall_offset_m(lid_at).z();
-    floor = -sim.wall_load(floor_at).force_n.z() / area, top = sim.wall_load(lid_at).force_n.z() / area;
+    const double floor = -sim.wall_load(floor_at).force_n.z() / area, top = sim.wall_load(lid_at).force_n.z() / area;
     if (top < 200) continue;  // loose: grains that do not yet touch are being pushed together
     Box box;
     box.low = Vec3::Zero(), box.high = Vec3(kSide, kSide, height);
@@ -46,6 +42,7 @@ TEST(Compression, plates_and_contacts_carry_the_same_stress) {
       if (f.grid.centre_m(2, c) > 3.5 * kD && f.grid.centre_m(2, c) < height - 3.5 * kD)
         middle -= f.contact_stress_pa[static_cast<std::size_t>(c)][8], n += 1;
     middle /= n;
+    if (std::getenv("VENATO_PRINT")) std::printf("%g floor %g top %g field %g\n", height, floor, top, middle);
     worst_field = std::max(worst_field, std::abs(middle / (0.5 * (floor + top)) - 1));
     worst_plates = std::max(worst_plates, std::abs(floor / top - 1));
     inertial = std::max(inertial, speed / height * kD / std::sqrt(top / kDensity));

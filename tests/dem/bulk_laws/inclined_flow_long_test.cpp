@@ -41,6 +41,7 @@ double mean_speed(const Simulation& sim) {
   return v / n;
 }
 
+const bool print = std::getenv("VENATO_PRINT") != nullptr;
 Flow flow(double angle_deg) {
   Simulation sim = chute(angle_deg, 0.5);
   sim.step(120000);  // 150 sqrt(d/g)
@@ -49,10 +50,10 @@ Flow flow(double angle_deg) {
   box.periodic[0] = box.periodic[1] = true;
   ContinuumSums sums(make_continuum_grid(box, Vec3(1, 1, 0.5 * kD), 0.75 * kD));
   const double early = mean_speed(sim);
-  constexpr int samples = 400;
+  constexpr int samples = 800;
   double speed = 0;
   for (int k = 0; k < samples; ++k) {
-    sim.step(200);
+    sim.step(100);
     sums.add(sim.grains(), sim.contacts());
     speed += mean_speed(sim) / samples;
   }
@@ -73,7 +74,7 @@ Flow flow(double angle_deg) {
   std::vector<double> core_phi, core_i, x, u;
   for (int k = 0; k < f.grid.n[2]; ++k) {
     const double z = f.grid.centre_m(2, k);
-    if (z < 3.5 * kD || z > r.height_m - 3 * kD) continue;
+    if (z < 0.3 * r.height_m || z > 0.7 * r.height_m) continue;  // the core: 4 d from the base and the surface
     const std::size_t c = f.grid.index(0, 0, k);
     const double pressure = -stress(k, 8), shear = -stress(k, 5);  // yz: force along y on faces across z
     r.ratio_error = std::max(r.ratio_error, std::abs(std::abs(shear) / pressure / r.tan_theta - 1));
@@ -81,6 +82,9 @@ Flow flow(double angle_deg) {
     core_i.push_back(f.gradient_1_s[c][5] * kD / std::sqrt(pressure / kDensity));
     x.push_back(std::pow(r.height_m, 1.5) - std::pow(r.height_m - z, 1.5)), u.push_back(f.velocity_m_s[c].y());
     r.friction += std::abs(shear) / pressure;
+    if (print)
+      std::printf("%.2f phi %.4f I %.4f ratio %.4f u %.4f P %.1f\n", z / kD, core_phi.back(), core_i.back(), std::abs(shear) / pressure / r.tan_theta,
+                  u.back(), pressure);
   }
   const auto n = static_cast<double>(core_phi.size());
   if (n < 5) return Flow{};
@@ -96,7 +100,7 @@ Flow flow(double angle_deg) {
 
 TEST(InclinedFlow, is_steady_with_bagnolds_profile_and_mu_of_i) {
   std::vector<Flow> flows;
-  for (const double angle : {23.0, 25.0, 27.0}) {
+  for (const double angle : {24.0, 26.0, 28.0}) {
     const Flow f = flow(angle);
     char line[240];
     std::snprintf(line, sizeof line, "H %.1f d, I %.4f (+-%.0f %%), phi %.4f (+-%.4f), mu %.4f, ratio error %.4f, R2 %.5f, speed change %.3f",
@@ -104,8 +108,10 @@ TEST(InclinedFlow, is_steady_with_bagnolds_profile_and_mu_of_i) {
                   f.speed_change);
     RecordProperty("angle_" + std::to_string(static_cast<int>(angle)), line);
     EXPECT_GT(f.height_m, 9 * kD) << angle;
-    EXPECT_LT(f.speed_change, 0.1) << angle;   // steady: otherwise nothing below means anything
-    EXPECT_LT(f.ratio_error, 0.01) << angle;   // balance of forces of a steady layer, 1 % of time average
+    EXPECT_LT(f.speed_change, 0.1) << angle;  // steady: otherwise nothing below means anything
+    // Balance of forces of a steady layer: exact but for what its speed still wanders (1 % of g sin) and the average of 800 instants over 40 d^2.
+    EXPECT_LT(f.ratio_error, 0.02) << angle;
+    EXPECT_NEAR(f.friction / f.tan_theta, 1, 0.01) << angle;
     EXPECT_LT(f.solid_spread, 0.01) << angle;  // Silbert 2001: constant in the core
     EXPECT_GT(f.bagnold_r2, 0.99) << angle;
     flows.push_back(f);

@@ -22,6 +22,9 @@ ContactGeometry contact(double overlap, double r_eff, double m_eff) {
   return g;
 }
 
+/// The frame has turned from the direction `before` to g.normal by the shortest way.
+void turn_from(ContactGeometry& g, const Trio& before) { g.turn = frame_turn(before, g.normal, g.normal, 0); }
+
 // verification.md 1.4 and 1.1: forces at a frozen overlap.
 TEST(LiggghtsHertz, has_the_common_stiffness) {
   const LiggghtsHertz law = make_liggghts_hertz(table(1e7, .25, 2500, {1, 10, 0, 0}), 0, 0);
@@ -60,7 +63,7 @@ void collide(const L& law, Pair& p, double dt) {
     g.normal = n;
     g.approach = -dot(dv, n);
     g.slide = cross(arm * (p.w[0] + p.w[1]) * Trio(0, 0, 1), n) - across(dv, n);
-    g.turn = frame_turn(to - dt * dv, to, n, 0);
+    turn_from(g, to - dt * dv);
     const ContactForce f = law.force(g, h, dt);
     p.most_pull = std::max(p.most_pull, -f.normal);
     p.tangential_impulse += length(f.tangential) * dt;
@@ -182,7 +185,7 @@ TEST(LiggghtsHertz, loses_its_spring_when_the_pair_turns) {
       const double angle = 2 * std::numbers::pi * k / n;
       const Trio before = g.normal;
       g.normal = Trio(std::cos(angle), std::sin(angle), 0);
-      g.turn = frame_turn(before, g.normal, g.normal, 0);
+      turn_from(g, before);
       law.force(g, h, 1e-6);
     }
     return length(h.spring) / spring;
@@ -212,7 +215,7 @@ TEST(LiggghtsHertz, rolling_damping_jolts_and_the_torque_is_not_carried_along) {
   g.roll = Trio(0, 0, 0);
   const Trio before = g.normal;
   g.normal = Trio(0, 0, 1);
-  g.turn = frame_turn(before, g.normal, g.normal, 0);
+  turn_from(g, before);
   const Trio held = h.rolling;
   law.force(g, h, dt);
   EXPECT_EQ(h.rolling.z, held.z);
