@@ -122,6 +122,13 @@ struct Counter {
 // ---- watching ----------------------------------------------------------------------------------------------------------------
 /// Positions of all grains every `every_s` in [from_s, to_s): what velocity and diffusivity fields are made from.
 struct SnapshotPlan { double from_s = 0, to_s = 0, every_s = 0; };
+/// Continuum fields averaged over the instants from_s, from_s + every_s, … < to_s (dem/fields/continuum.h).
+struct FieldPlan {
+  double width_m = 0;                          ///< standard deviation of the kernel
+  Vec3 cell_m = Vec3::Zero();                  ///< wanted cells; at least the box length = averaged over
+  double from_s = 0, to_s = 0, every_s = 0;
+  bool diffusivity = false;                    ///< also the diffusivity (keeps all positions of the window)
+};
 /// Time series of every counter, of grain number, mass, kinetic energy, wall forces.
 struct SeriesPlan { double every_s = 0.005; };
 
@@ -172,6 +179,7 @@ struct Case {
   std::vector<Counter> counters;
   SeriesPlan series;
   std::vector<SnapshotPlan> snapshots;
+  std::optional<FieldPlan> fields;
   double vtk_every_s = 0;                      ///< > 0: ParaView files (needs RunOptions::vtk_folder)
   PicturePlan pictures;                        ///< needs RunOptions::on_picture
   std::vector<Opening> openings;               ///< as stated by the case and its rig

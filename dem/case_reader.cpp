@@ -145,6 +145,7 @@ void read_case(ObjectReader& r, Case& c) {
       false);
   read_list(r, "snapshots", "windows in which all positions are kept", 0, kMaxPlans, c.snapshots,
             [&c](ObjectReader& item, SnapshotPlan& plan) { read_snapshots(item, c, plan); });
+  read_fields(r, c);
   r.object(
       "vtk", "ParaView files",
       [&c](ObjectReader& o) {

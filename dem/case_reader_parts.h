@@ -25,6 +25,7 @@ void read_fill(ObjectReader& r, const Case& c, Fill& fill);
 void read_rain(ObjectReader& r, const Case& c, Rain& rain);
 void read_counter(ObjectReader& r, const Case& c, Counter& counter);
 void read_snapshots(ObjectReader& r, const Case& c, SnapshotPlan& plan);
+void read_fields(ObjectReader& r, Case& c);
 /// Largest coarse-grained grain [m], 0 without powders.
 double largest_grain(const Case& c);
 }  // namespace venato::dem

@@ -24,6 +24,8 @@ void exchange(Archive& a, Run& r) {
   for (auto& s : r.seen) a.list(s);
   a.list(r.counter_mass_kg), a.list(r.impulse_before);
   a.value(r.sampled_at_s), a.value(r.samples), a.list(r.frames), a.list(r.vtk_times_s), a.value(r.pictures), a.value(r.delayed_hand_overs);
+  a.value(r.field_frames);
+  if (r.fields) r.fields->exchange(a);
   auto& o = r.result;
   for (auto& list : o.records) a.list(list);
   auto& s = o.series;
@@ -71,6 +73,9 @@ std::uint64_t case_fingerprint(const Case& c) {
   for (const Counter& k : c.counters)
     w.value(k.axis), w.value(k.position_m), w.value(k.sign), w.value(k.window_low), w.value(k.window_high), w.value(k.remove), w.value(k.first_only);
   w.value(c.series.every_s), w.list(c.snapshots), w.value(c.vtk_every_s), w.value(c.pictures.every_s);
+  if (c.fields)
+    w.value(c.fields->width_m), w.value(c.fields->cell_m), w.value(c.fields->from_s), w.value(c.fields->to_s), w.value(c.fields->every_s),
+        w.value(c.fields->diffusivity);
   std::uint64_t h = 14695981039346656037ull;
   for (const std::uint8_t b : w.bytes) h = (h ^ b) * 1099511628211ull;
   return h;

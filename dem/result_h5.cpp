@@ -4,10 +4,11 @@
 #include "base/version.h"
 #include "dem/case_outputs/case_outputs.h"
 #include "dem/case_outputs/labels.h"
+#include "dem/fields/continuum_h5.h"
 #include "dem/run_case.h"
 
 // One table in code of what a DEM result holds; the layout is
-//   /series/*, /counters/<name>/*, /snapshots/<plan>/*, /final/*, /balance/*, /names/*, /kpi/*, /rig/<table>/*.
+//   /series/*, /counters/<name>/*, /snapshots/<plan>/*, /fields/* (with Case::fields), /final/*, /balance/*, /names/*, /kpi/*, /rig/<table>/*.
 namespace venato::dem {
 namespace {
 constexpr int kFormatVersion = 1;
@@ -181,6 +182,7 @@ void write_case_result(const std::filesystem::path& path, const Case& c, const C
   write_series(file, r.series);
   for (std::size_t k = 0; k < r.records.size(); ++k) write_counter(file, "/counters/" + counter_label(c, k) + "/", r.records[k]);
   for (std::size_t k = 0; k < r.snapshots.size(); ++k) write_snapshots(file, "/snapshots/" + std::to_string(k) + "/", r.snapshots[k]);
+  if (r.fields) write_fields(file, "/fields/", *r.fields);
   write_final(file, r.final_state);
   write_balance(file, r);
   write_report(file, report);

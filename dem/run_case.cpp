@@ -64,6 +64,7 @@ void check_case(const Case& c) {
       fail("a handed-over grain has species " + std::to_string(g.species) + ", which is no powder");
   for (const SnapshotPlan& p : c.snapshots)
     if (!(p.every_s > 0) || !(p.to_s >= p.from_s)) fail("a snapshot plan needs every_s > 0 and to_s >= from_s");
+  if (c.fields && (!(c.fields->every_s > 0) || !(c.fields->to_s > c.fields->from_s))) fail("the field plan needs every_s > 0 and to_s > from_s");
   if (!(c.series.every_s > 0)) fail("series.every_s is not > 0");
 }
 
@@ -123,6 +124,7 @@ CaseRun::CaseRun(const Case& case_, const RunOptions& options_, Context& context
   counter_mass_kg.resize(c.counters.size());
   impulse_before.assign(c.walls.size(), Vec3::Zero());
   frames.resize(c.snapshots.size());
+  if (c.fields) fields.emplace(c.box, *c.fields, c.gravity_m_s2, c.coarse_graining);
   waiting.resize(c.handed_over.size());
   std::iota(waiting.begin(), waiting.end(), 0u);
   std::stable_sort(waiting.begin(), waiting.end(),

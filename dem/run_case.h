@@ -1,14 +1,17 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 #include "base/context.h"
 #include "dem/case.h"
+#include "dem/snapshot.h"
 
 namespace venato::dem {
 struct RgbImage;                 // dem/picture/picture.h
 struct CaseReport;               // dem/case_outputs/case_outputs.h
+struct FieldResult;               ///< dem/fields/field_recorder.h
 
 struct CounterRecord {           ///< one grain crossing one counter
   double time_s;                 ///< linear interpolation inside the step
@@ -23,14 +26,6 @@ struct TimeSeries {
   std::vector<std::vector<double>> counter_mass_kg;    ///< [counter][sample] cumulative
   std::vector<std::vector<Vec3>> wall_force_n;         ///< [wall][sample] mean over the sampling interval
 };
-struct Snapshot {                ///< all grains alive, sorted by id; periodic directions unwrapped
-  double time_s;
-  std::vector<std::int64_t> id;
-  std::vector<Vec3> position_m;
-  std::vector<Vec3> velocity_m_s;
-  std::vector<float> radius_m;
-  std::vector<std::int32_t> species;
-};
 struct CaseResult {
   bool complete = true;                                ///< false: stopped at RunOptions::until_s, before the end of the case
   double end_time_s = 0;                               ///< of final_state
@@ -39,6 +34,7 @@ struct CaseResult {
   std::vector<std::vector<CounterRecord>> records;     ///< [counter], in order of time, then id
   TimeSeries series;
   std::vector<std::vector<Snapshot>> snapshots;        ///< [plan][frame]
+  std::shared_ptr<const FieldResult> fields;           ///< of Case::fields; null without or when the run ended before the window
   std::vector<GrainRecord> final_state;                ///< sorted by id
   double mass_put_in_kg = 0, mass_removed_kg = 0, mass_lost_box_kg = 0, mass_left_kg = 0;   ///< book closes to rounding
   std::vector<double> rain_starved_kg;

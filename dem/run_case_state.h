@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dem/fields/field_recorder.h"
 #include "dem/run_case.h"
 #include "dem/simulation/simulation.h"
 
@@ -61,6 +62,8 @@ struct CaseRun {
   std::vector<std::int64_t> frames;  ///< [plan]
   std::vector<double> vtk_times_s;
   std::int64_t pictures = 0;  ///< taken so far
+  std::optional<FieldRecorder> fields;
+  std::int64_t field_frames = 0;
   std::int64_t delayed_hand_overs = 0;
   std::uint8_t speed_warned = 0;
 

@@ -100,18 +100,6 @@ void sample_series(CaseRun& run) {
   run.sampled_at_s = t;
 }
 
-void take_snapshot(CaseRun& run, std::size_t plan) {
-  Snapshot s;
-  s.time_s = run.sim.time_s();
-  for (const GrainState& g : run.sim.grains()) {
-    s.id.push_back(g.id);
-    s.position_m.push_back(g.position_m);
-    s.velocity_m_s.push_back(g.velocity_m_s);
-    s.radius_m.push_back(static_cast<float>(g.radius_m));
-    s.species.push_back(g.species);
-  }
-  run.result.snapshots[plan].push_back(std::move(s));
-}
 }  // namespace
 
 void observe(CaseRun& run) {
@@ -126,8 +114,16 @@ void observe(CaseRun& run) {
     const SnapshotPlan& p = run.c.snapshots[k];
     auto next = [&] { return p.from_s + static_cast<double>(run.frames[k]) * p.every_s; };
     if (!(next() < p.to_s - 1e-9 * p.every_s) || now < due_step(next(), dt)) continue;
-    take_snapshot(run, k);
+    run.result.snapshots[k].push_back(snapshot_of(run.sim));
     while (next() < p.to_s - 1e-9 * p.every_s && now >= due_step(next(), dt)) ++run.frames[k];
+  }
+  if (run.fields) {
+    const FieldPlan& p = *run.c.fields;
+    auto next = [&] { return p.from_s + static_cast<double>(run.field_frames) * p.every_s; };
+    if (next() < p.to_s - 1e-9 * p.every_s && now >= due_step(next(), dt)) {
+      run.fields->take(run.sim);
+      while (next() < p.to_s - 1e-9 * p.every_s && now >= due_step(next(), dt)) ++run.field_frames;
+    }
   }
   if (run.c.vtk_every_s > 0 && !run.options.vtk_folder.empty() &&
       now >= due_step(static_cast<double>(run.vtk_times_s.size()) * run.c.vtk_every_s, dt))
@@ -139,6 +135,7 @@ void observe(CaseRun& run) {
 void finish_result(CaseRun& run) {
   remove_outside(run);
   CaseResult& r = run.result;
+  if (run.fields && run.fields->has_frames()) r.fields = std::make_shared<const FieldResult>(run.fields->finish());
   r.steps = run.sim.step_number();
   r.end_time_s = run.sim.time_s();
   for (const GrainState& g : run.sim.grains()) {

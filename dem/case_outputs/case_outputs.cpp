@@ -2,6 +2,7 @@
 
 #include "base/io/atomic_file.h"
 #include "dem/case_outputs/csv.h"
+#include "dem/case_outputs/field_plots.h"
 #include "dem/case_outputs/labels.h"
 #include "dem/case_outputs/plots.h"
 
@@ -39,6 +40,10 @@ void write_case_outputs(const std::filesystem::path& folder, const Case& c, cons
     write_text_atomically(folder / "flow_rate.svg", flow_rate_svg(c, r));
   }
   write_text_atomically(folder / "kinetic_energy.svg", kinetic_energy_svg(c, r));
+  if (r.fields) {
+    write_text_atomically(folder / "fields_plateau.svg", plateau_svg(c.name, r.fields->plateau, r.fields->fields.grid.width_m));
+    write_text_atomically(folder / "fields_stress.svg", stress_profile_svg(c.name, r.fields->fields));
+  }
   for (std::size_t k = 0; k < r.snapshots.size(); ++k) {
     const auto profile = height_profile(c, r.snapshots[k]);
     if (!profile) continue;

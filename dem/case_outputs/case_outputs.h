@@ -20,7 +20,7 @@ CaseReport report_case(const Case& c, const CaseResult& r);
 
 /// Writes what `venato dem` leaves in its folder (made when missing): result.h5, kpi.csv, series.csv, counter_<name>.csv, and the plots
 /// counter_mass.svg, flow_rate.svg, kinetic_energy.svg, profile_<n>_velocity.svg and profile_<n>_solid_fraction.svg (one pair per snapshot plan
-/// with at least 3 frames); of a rig its tables (<name>.csv) and plots (<name>.svg). Same case and result, same bytes; no wall-clock times.
+/// with at least 3 frames), fields_plateau.svg and fields_stress.svg (with Case::fields); of a rig its tables (<name>.csv) and plots (<name>.svg). Same case and result, same bytes; no wall-clock times.
 /// \throws WorkError, UsageError naming the file.
 void write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r, const CaseReport& report);
 CaseReport write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r);

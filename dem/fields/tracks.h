@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 #include <vector>
-#include "dem/run_case.h"
+#include "dem/snapshot.h"
 namespace venato::dem {
 
 /// Uninterrupted paths of grains through the frames of a window: path p covers entries [start[p], start[p+1]) of the flat arrays, one entry per

@@ -3,7 +3,7 @@
 /// translation-invariant across the belt (x), so x is averaged out; d_xx is the diffusivity across.
 #include <span>
 #include <vector>
-#include "dem/run_case.h"
+#include "dem/snapshot.h"
 namespace venato::dem {
 
 struct FieldGrid {
