@@ -32,9 +32,7 @@ ContactGeometry wall_frame(const Sphere& x, const Motion& m, double mass, const 
   g.slide = cross(x.r * m.spin, n_half) - across(dv, n_half);  // lever R on walls: the spin identities of verification.md 3.1 hold exactly
   g.roll = across(m.spin - wall_spin, n);
   g.normal = n;
-  const double angle = 0.5 * dot(m.spin + wall_spin, n) * dt, both = std::sqrt(dot(n_before, n_before) * dot(n, n));
-  g.turn = frame_turn(n_before, n, n, angle, both);
-  g.turn.scale = 1 / (both * g.turn.cosine * (1 + 0.25 * angle * angle));
+  g.turn = frame_turn(n_before, n, n, 0.5 * dot(m.spin + wall_spin, n) * dt);
   g.r_eff = x.r;  // R* = R on every wall, also inside cylinders
   g.m_eff = mass;
   g.i_roll = 1.4 * mass * x.r * x.r;

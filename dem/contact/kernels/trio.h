@@ -53,4 +53,11 @@ VENATO_KERNEL FrameTurn frame_turn(const Trio& from, const Trio& to, const Trio&
   t.vector = shortest + (spin * t.cosine) * n + spin * cross(n, shortest);  // product of the two quaternions; shortest . n = 0
   return t;
 }
+/// The same with its scale, where a division and a root more do not matter.
+VENATO_KERNEL FrameTurn frame_turn(const Trio& from, const Trio& to, const Trio& n, double angle) {
+  const double both = std::sqrt(dot(from, from) * dot(to, to));
+  FrameTurn t = frame_turn(from, to, n, angle, both);
+  t.scale = 1 / (both * t.cosine * (1 + 0.25 * angle * angle));
+  return t;
+}
 }  // namespace venato::dem
