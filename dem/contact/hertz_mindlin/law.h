@@ -44,8 +44,8 @@ struct HertzMindlin {
     const double c_roll = rolling_damper * g.r_eff * std::sqrt(k.radius * g.i_roll);
     ContactForce f;
     f.normal = f_n;
-    f.tangential = capped_spring(h.spring, g, ratio, g.slide, k.tangential, tangential_damper * root_am, friction * f_n, dt);
-    f.rolling = capped_spring(h.rolling, g, ratio, g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * f_n, dt);
+    capped_springs(h.spring, h.rolling, g, ratio, {g.slide, k.tangential, tangential_damper * root_am, friction * f_n},
+                   {g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * f_n}, dt, f.tangential, f.rolling);
     h.contact_radius = k.radius;
     return f;
   }

@@ -29,13 +29,12 @@ struct PairFrame {
   double arm_i, arm_j;  ///< [m] R - overlap/2: both torques act at one point, so angular momentum is exact
 };
 
-/// 1/a, 1/b, 1/c with one division: the divider is what bounds the contact loop.
+/// 1/a, 1/b, 1/c from 1/(abc): the divider is what bounds the contact loop, so everything shares one division.
 struct Inverses {
   double a, b, c;
 };
-VENATO_KERNEL Inverses inverses(double a, double b, double c) {
-  const double bc = b * c, q = 1 / (a * bc);
-  return {q * bc, q * (a * c), q * (a * b)};
+VENATO_KERNEL Inverses inverses(double a, double b, double c, double one_over_product) {
+  return {one_over_product * (b * c), one_over_product * (a * c), one_over_product * (a * b)};
 }
 
 VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
@@ -47,7 +46,11 @@ VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   const double d2 = dot(to_j, to_j), half2 = dot(half, half), distance = std::sqrt(d2);
   const double both = std::sqrt(dot(before, before) * d2);
   const double twirl = (0.25 * dt) * dot(wi + wj, to_j);  // spin about the normal: tan(half the angle) = twirl / distance
-  const Inverses over = inverses(distance, half2, both * (both + dot(before, to_j)) * (d2 + twirl * twirl));
+  const double im_i = b.inverse_mass_i[l], im_j = b.inverse_mass_j[l], ri2 = ri * ri, rj2 = rj * rj;
+  const double turn2 = both * (both + dot(before, to_j)) * (d2 + twirl * twirl);
+  const double radii = ri + rj, inverse_masses = im_i + im_j, inverse_inertias = im_i * rj2 + im_j * ri2;
+  const double places = distance * half2 * turn2, sizes = radii * inverse_masses * inverse_inertias, q = 1 / (places * sizes);
+  const Inverses over = inverses(distance, half2, turn2, q * sizes), eff = inverses(radii, inverse_masses, inverse_inertias, q * places);
   const Trio n = over.a * to_j;
   const double gap = ri + rj - distance;
   const double overlap = gap > 0 ? gap : 0.0;  // the touch test compares squares: rounding may leave -1e-20 here
@@ -62,8 +65,6 @@ VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   f.g.normal = n;
   f.g.turn = frame_turn(before, to_j, n, 2 * twirl * over.a, both);
   f.g.turn.scale = d2 * over.c;
-  const double im_i = b.inverse_mass_i[l], im_j = b.inverse_mass_j[l], ri2 = ri * ri, rj2 = rj * rj;
-  const Inverses eff = inverses(ri + rj, im_i + im_j, im_i * rj2 + im_j * ri2);
   f.g.r_eff = ri * rj * eff.a;
   f.g.m_eff = eff.b;
   f.g.i_roll = 1.4 * (ri2 * rj2) * eff.c;
