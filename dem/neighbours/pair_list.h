@@ -27,6 +27,15 @@ inline constexpr std::int64_t kGrainsPerBlock = 256;
 /// Vector loads may read this many entries beyond the end of a list.
 inline constexpr std::size_t kListPadding = 8;
 
+struct Load {
+  Trio force, torque;
+};
+
+/// Force (0-2) and torque (3-5) on a grain, padded with zeros to the shape of a Motion.
+struct alignas(64) LoadRow {
+  double v[8] = {};
+  Load load() const { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
+};
 /// Entry of a row: the pair, counted from the block's first, and whether the grain is its second one.
 struct RowEntry {
   std::uint32_t code;
@@ -37,12 +46,18 @@ struct RowEntry {
 /// History seen from the other grain.
 inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, h.contact_radius, -h.rolling, h.plastic}; }
 
+/// Touching pairs of one block.
 struct BlockContacts {
-  std::uint32_t used = 0;  ///< places taken so far; all below are in use or in `vacant`
+  RawArray<ContactHistory> history;   ///< [place]
+  RawArray<LoadRow> kept;             ///< [place] force on the pair's first grain, when it was asked for
+  std::uint32_t used = 0;             ///< places taken so far; all below are in use or in `vacant`
   std::vector<std::uint32_t> vacant;
-  std::int64_t sides = 0;  ///< touching grains of the block, once for each contact
+  std::int64_t sides = 0;             ///< touching grains of the block, once for each contact
   std::uint32_t take() {
-    if (vacant.empty()) return used++;
+    if (vacant.empty()) {
+      if (used == history.size()) history.grow(used + used / 4 + 16);
+      return used++;
+    }
     const std::uint32_t k = vacant.back();
     vacant.pop_back();
     return k;
@@ -71,10 +86,8 @@ struct PairList {
     const std::size_t p = pair_of(slot, e);
     return e.second() ? block_start(block_of(slot)) + own[p] : static_cast<std::size_t>(partner[p]);
   }
-  ContactHistory& history_of(std::size_t block, std::size_t pair) { return history[static_cast<std::size_t>(block_first[block]) + place[pair]]; }
-  const ContactHistory& history_of(std::size_t block, std::size_t pair) const {
-    return history[static_cast<std::size_t>(block_first[block]) + place[pair]];
-  }
+  ContactHistory& history_of(std::size_t block, std::size_t pair) { return contacts[block].history[place[pair]]; }
+  const ContactHistory& history_of(std::size_t block, std::size_t pair) const { return contacts[block].history[place[pair]]; }
   /// Starts (with this history) or ends a contact: marks the pair, takes or frees a place.
   void start(std::size_t block, std::size_t pair, const ContactHistory& h);
   void end(std::size_t block, std::size_t pair);
@@ -96,22 +109,18 @@ struct PairListInput {
   int threads;
 };
 
-/// Makes lists; keeps its working memory from one to the next.
+/// Makes lists.
 class PairListBuilder {
  public:
   /// Rebuilds `list`; histories of touching pairs that are still near are carried over.
   void rebuild(PairList& list, const PairListInput& in);
 
  private:
-  struct Neighbour {
-    std::int64_t id;
-    std::int32_t slot;
-  };
-  /// Rows of a block of grains, one after the other.
+  /// Rows of a block of grains, one after the other: slots of the partners by ascending id.
   struct BlockRows {
-    std::vector<Neighbour> row;
+    std::vector<std::int32_t> row;
     std::vector<std::int32_t> end;
-    std::span<const Neighbour> of(std::size_t k) const {
+    std::span<const std::int32_t> of(std::size_t k) const {
       const std::size_t begin = k == 0 ? 0 : static_cast<std::size_t>(end[k - 1]);
       return {row.data() + begin, static_cast<std::size_t>(end[k]) - begin};
     }
@@ -119,13 +128,13 @@ class PairListBuilder {
   struct Search {  ///< working memory of one thread
     std::vector<std::pair<std::int32_t, std::int32_t>> runs;
     std::vector<std::int32_t> near;
+    std::vector<std::pair<std::int64_t, std::int32_t>> row;  ///< (id, slot)
   };
-  static void find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search, std::vector<Neighbour>& out);
-  void fill_block(PairList& list, const PairListInput& in, std::size_t block) const;
+  static void find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search);
+  void fill_block(PairList& list, const PairList& old, const PairListInput& in, std::size_t block) const;
   void order_pairs(PairList& list, const PairListInput& in, std::size_t block) const;
-  void carry(PairList& list, const PairListInput& in, std::size_t block, std::size_t slot) const;
+  void carry(PairList& list, const PairList& old, const PairListInput& in, std::size_t block, std::size_t slot) const;
 
-  PairList spare_;
   std::vector<BlockRows> rows_;
 };
 }  // namespace venato::dem

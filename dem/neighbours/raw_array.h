@@ -1,7 +1,9 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 namespace venato::dem {
 
@@ -13,6 +15,15 @@ class RawArray {
  public:
   void resize_for_overwrite(std::size_t n) {
     if (n > capacity_) data_ = std::make_unique_for_overwrite<T[]>(capacity_ = n + n / 8);
+    size_ = n;
+  }
+  /// Makes room for n, keeping what is there.
+  void grow(std::size_t n) {
+    if (n > capacity_) {
+      std::unique_ptr<T[]> larger = std::make_unique_for_overwrite<T[]>(n);
+      std::copy_n(data_.get(), size_, larger.get());
+      data_ = std::move(larger), capacity_ = n;
+    }
     size_ = n;
   }
   std::size_t size() const { return size_; }

@@ -73,7 +73,7 @@ void evaluate(Simulation::Impl& sim, const LawTable<L>& table, const PairView& v
 }
 }  // namespace
 
-PairView Simulation::Impl::pair_view(std::size_t b, LoadRow* sum, LoadRow* kept) {
+PairView Simulation::Impl::pair_view(std::size_t b, LoadRow* sum) {
   const std::size_t first = static_cast<std::size_t>(pairs.block_first[b]);
   PairView v{sphere.data(),
              motion.data(),
@@ -82,9 +82,9 @@ PairView Simulation::Impl::pair_view(std::size_t b, LoadRow* sum, LoadRow* kept)
              pairs.partner.data() + first,
              pairs.touching.data() + first,
              pairs.place.data() + first,
-             pairs.history.data() + first,
+             pairs.contacts[b].history.data(),
              sum,
-             kept,
+             nullptr,
              {box.length[0], box.length[1], box.length[2]},
              {},
              box.periodic(0) || box.periodic(1) || box.periodic(2)};
@@ -93,13 +93,12 @@ PairView Simulation::Impl::pair_view(std::size_t b, LoadRow* sum, LoadRow* kept)
 }
 
 template <class L>
-void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, LoadRow* kept, PassClock* clock) {
+void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, bool keep, PassClock* clock) {
   PairList& list = sim.pairs;
   BlockBook& book = sim.books[b];
   book.overlap = book.wall_work = 0, book.contact_sides = book.wall_contacts = 0, book.loss = {};
   const std::size_t first = static_cast<std::size_t>(list.block_first[b]), pairs = static_cast<std::size_t>(list.block_first[b + 1]) - first;
   std::fill(std::begin(scratch.sum), std::end(scratch.sum), LoadRow());
-  const PairView v = sim.pair_view(b, scratch.sum, kept);
   double t = clock ? omp_get_wtime() : 0;
   auto lap = [&](double PassClock::*part) {
     if (!clock) return;
@@ -107,6 +106,7 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
     clock->*part += now - t, t = now;
   };
   for (std::size_t from = 0; from < pairs; from += kScanChunk) {
+    PairView v = sim.pair_view(b, scratch.sum);
     find_touching(v, from, std::min(pairs, from + kScanChunk), scratch.touching, scratch.changed);
     for (std::size_t k = 0; k < scratch.changed.count; ++k) {
       const std::size_t p = first + scratch.changed.pair[k];
@@ -115,6 +115,8 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
       else
         list.start(b, p, ContactHistory{});
     }
+    v = sim.pair_view(b, scratch.sum);  // new contacts may have moved the histories
+    if (keep) list.contacts[b].kept.grow(list.contacts[b].history.size()), v.kept = list.contacts[b].kept.data();
     lap(&PassClock::scan);
     fetch_ahead(v, scratch.touching, 0);
     for (std::size_t k = 0; k < scratch.touching.count; k += kBatchWidth) {
@@ -132,8 +134,8 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
   book.contact_sides = list.contacts[b].sides;
   lap(&PassClock::walls);
 }
-template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, LoadRow*, PassClock*);
-template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, LoadRow*, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, bool, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, bool, PassClock*);
 
 void prepare_batch(const Simulation::Impl& sim, PairBatch& batch) {
   std::visit(

@@ -27,7 +27,7 @@ void prepare_batch(const Simulation::Impl& sim, PairBatch& batch);
 
 /// Forces on the grains of block b by pairs and walls, histories advanced by dt (0: forces only). Fills book and wall contacts.
 /// scratch.sum holds the forces afterwards: pairs in ascending order of the partners' ids, then walls.
-/// \param kept [place] out: forces on the pairs' first grains; null: not wanted
+/// \param keep also leave the forces on the pairs' first grains in the block's contacts
 template <class L>
-void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, LoadRow* kept, PassClock* clock);
+void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, std::size_t b, BlockScratch& scratch, bool keep, PassClock* clock);
 }  // namespace venato::dem

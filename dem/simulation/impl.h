@@ -89,7 +89,6 @@ struct Simulation::Impl {
   std::vector<GrainCard> card;
   std::vector<std::int32_t> slot_of_id;  ///< -1 = removed
   PairList pairs;
-  RawArray<LoadRow> kept_force;  ///< [block_first + place] on the pair's first grain, of the last finish_step() or evaluate()
   WallList wall_list;
   std::vector<WallModel> walls;
   std::vector<Vec3> wall_impulse;
@@ -137,11 +136,11 @@ struct Simulation::Impl {
   bool list_is_stale() const;
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
-  void keep_forces(double dt);  ///< forces of all contacts into kept_force, sums into load
+  void keep_forces(double dt);  ///< forces of all contacts, also each by itself; sums into load
   void note_crossings(std::size_t block);
   MoveView move_view(const BlockScratch& mine) const;
   void fetch_block(FetchAhead& ahead, std::size_t block) const;
-  PairView pair_view(std::size_t block, LoadRow* sum, LoadRow* kept);
+  PairView pair_view(std::size_t block, LoadRow* sum);
   void settle_contacts(double dt);  ///< books of block_forces()
   void settle_motion();             ///< books of move_grain()
   template <class L>

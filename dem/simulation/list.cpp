@@ -71,8 +71,11 @@ void Simulation::Impl::rebuild_list() {
   permute(plan.reach, order);
   anchor.swap(plan.anchor), reach.swap(plan.reach);
   for (std::int32_t& k : order) k = alive[static_cast<std::size_t>(k)];  // new slot -> old slot
-  permute(sphere, order);
-  permute(motion, order);
+  // Into the arrays that the next pass will overwrite anyway.
+  next_sphere.resize(order.size()), next_motion.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    next_sphere[k] = sphere[static_cast<std::size_t>(order[k])], next_motion[k] = motion[static_cast<std::size_t>(order[k])];
+  sphere.swap(next_sphere), motion.swap(next_motion);
   load.resize(order.size());
   permute(card, order);
   for (std::size_t s = 0; s < card.size(); ++s) slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s);

@@ -48,7 +48,7 @@ ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::
   return g;
 }
 
-/// f(i, j, history, index into kept_force) for every touching pair, seen from the grain with the lower id.
+/// f(i, j, history, force on i) for every touching pair, seen from the grain with the lower id.
 template <class F>
 void for_touching_pairs(const Simulation::Impl& e, const F& f) {
   for (std::size_t b = 0; b + 1 < e.pairs.block_first.size(); ++b)
@@ -56,7 +56,7 @@ void for_touching_pairs(const Simulation::Impl& e, const F& f) {
       if (!e.pairs.touching[p]) continue;
       const std::size_t i = PairList::block_start(b) + e.pairs.own[p], j = static_cast<std::size_t>(e.pairs.partner[p]);
       if (e.card[i].id < e.card[j].id && alive(e, i) && alive(e, j))
-        f(i, j, e.pairs.history_of(b, p), static_cast<std::size_t>(e.pairs.block_first[b]) + e.pairs.place[p]);
+        f(i, j, e.pairs.history_of(b, p), e.pairs.contacts[b].kept[e.pairs.place[p]]);
     }
 }
 template <class F>
@@ -103,9 +103,9 @@ std::vector<ContactState> Simulation::contacts() const {
   impl_->finish_step();
   const Impl& e = *impl_;
   std::vector<ContactState> all;
-  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, std::size_t force) {
+  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, const LoadRow& on_i) {
     const ContactGeometry g = resting_geometry(e, i, j);
-    const Load f = e.kept_force[force].load();
+    const Load f = on_i.load();
     const Trio across_n = across(f.force, g.normal);
     const Trio rolling = f.torque - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.force);
     all.push_back({e.card[i].id, e.card[j].id, -1, g.overlap, to_vec3(g.normal), -dot(f.force, g.normal), to_vec3(h.spring), to_vec3(across_n),
@@ -160,7 +160,7 @@ EnergyBook Simulation::energy() const {
         auto add = [&](const ContactEnergy& c) {
           b.elastic_normal_j += c.elastic_normal, b.elastic_tangential_j += c.elastic_tangential, b.elastic_rolling_j += c.elastic_rolling;
         };
-        for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, std::size_t) {
+        for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, const LoadRow&) {
           add(table.of(e.card[i].material, e.card[j].material).energy(resting_geometry(e, i, j), h));
         });
         for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {
@@ -276,7 +276,7 @@ std::uint64_t Simulation::state_hash() const {
     h.add(e.motion[s].velocity), h.add(e.motion[s].spin), h.add(e.load[s].force), h.add(e.load[s].torque);
   }
   std::uint64_t contacts = 0;  // sum of hashes: does not depend on the order of slots
-  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& pair, std::size_t) {
+  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& pair, const LoadRow&) {
     Hash c;
     c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.card[j].id)), c.add(pair);
     contacts += c.h;

@@ -10,10 +10,6 @@
 
 namespace venato::dem {
 
-struct Load {
-  Trio force, torque;
-};
-
 /// What a touching pair reads besides the spheres: one cache line.
 struct alignas(64) Motion {
   Trio velocity, spin;
@@ -21,11 +17,6 @@ struct alignas(64) Motion {
   double inverse_inertia;  ///< 2.5 / (m R^2); 0 = frozen
 };
 
-/// Force (0-2) and torque (3-5) on a grain, padded with zeros to the shape of a Motion.
-struct alignas(64) LoadRow {
-  double v[8] = {};
-  Load load() const { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
-};
 /// One block's lists, and the grains, as the vector code sees them. Pairs count from the block's first.
 struct PairView {
   const Sphere* sphere;

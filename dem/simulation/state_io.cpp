@@ -32,7 +32,7 @@ std::vector<std::uint8_t> Simulation::save_state() const {
   exchange(w, e);
   for (std::size_t b = 0; b + 1 < e.pairs.block_first.size(); ++b)
     for (std::size_t p = first_pair(e, b); p < first_pair(e, b + 1); ++p)
-      if (e.pairs.touching[p]) w.value(e.pairs.history_of(b, p)), w.value(e.kept_force[first_pair(e, b) + e.pairs.place[p]]);
+      if (e.pairs.touching[p]) w.value(e.pairs.history_of(b, p)), w.value(e.pairs.contacts[b].kept[e.pairs.place[p]]);
   for (std::size_t k = 0; k < e.walls.size(); ++k) {
     w.value(e.wall_impulse[k]), w.value(e.wall_load[k]);
     w.value(e.walls[k].pose), w.value(e.walls[k].pose_before), w.value(e.walls[k].pose_at_build), w.value(e.walls[k].step_velocity_m_s);
@@ -49,14 +49,14 @@ void Simulation::load_state(std::span<const std::uint8_t> bytes) {
   if (magic != kMagic || walls != e.walls.size()) throw WorkError("DEM state: the saved state belongs to another program version or another case");
   exchange(r, e);
   e.pairs.place.resize_for_overwrite(e.pairs.pair_count());
-  e.pairs.history.resize_for_overwrite(e.pairs.pair_count());
-  e.kept_force.resize_for_overwrite(e.pairs.pair_count());
-  e.pairs.contacts.assign(e.pairs.block_first.empty() ? 0 : e.pairs.block_first.size() - 1, {});
+  e.pairs.contacts.clear();
+  e.pairs.contacts.resize(e.pairs.block_first.empty() ? 0 : e.pairs.block_first.size() - 1);
   for (std::size_t b = 0; b < e.pairs.contacts.size(); ++b)
     for (std::size_t p = first_pair(e, b); p < first_pair(e, b + 1); ++p) {
       if (!e.pairs.touching[p]) continue;
       e.pairs.start(b, p, ContactHistory{});
-      r.value(e.pairs.history_of(b, p)), r.value(e.kept_force[first_pair(e, b) + e.pairs.place[p]]);
+      e.pairs.contacts[b].kept.grow(e.pairs.contacts[b].history.size());
+      r.value(e.pairs.history_of(b, p)), r.value(e.pairs.contacts[b].kept[e.pairs.place[p]]);
     }
   for (std::size_t k = 0; k < e.walls.size(); ++k) {
     r.value(e.wall_impulse[k]), r.value(e.wall_load[k]);

@@ -90,7 +90,6 @@ void Simulation::Impl::keep_forces(double dt) {
   const std::int64_t nb = blocks();
   books.resize(static_cast<std::size_t>(nb));
   thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
-  kept_force.resize_for_overwrite(pairs.pair_count());
   load.resize(sphere.size());
   std::visit(
       [&](const auto& table) {
@@ -100,7 +99,7 @@ void Simulation::Impl::keep_forces(double dt) {
 #pragma omp for schedule(dynamic, 1)
           for (std::int64_t i = 0; i < nb; ++i) {
             const std::size_t b = static_cast<std::size_t>(i);
-            block_forces(*this, table, dt, b, mine, kept_force.data() + pairs.block_first[b], nullptr);
+            block_forces(*this, table, dt, b, mine, true, nullptr);
             for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = mine.sum[s - PairList::block_start(b)].load();
           }
         }
@@ -148,7 +147,7 @@ void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
   const std::size_t count = static_cast<std::size_t>(pairs.block_first[block + 1]) - first;
   ahead.add(sphere.data() + s, n), ahead.add(motion.data() + s, n);
   ahead.add(pairs.own.data() + first, count), ahead.add(pairs.touching.data() + first, count), ahead.add(pairs.place.data() + first, count);
-  ahead.add(pairs.history.data() + first, pairs.contacts[block].used);
+  ahead.add(pairs.contacts[block].history.data(), pairs.contacts[block].used);
   ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
   ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
   if (block + 1 < nb)
@@ -178,7 +177,7 @@ void Simulation::Impl::advance() {
             const bool clocked = i % kClockedBlocks == 0;
             if (pending) {
               fetch_block(mine.ahead, b + 1);
-              block_forces(*this, table, setup.time_step_s, b, mine, nullptr, clocked ? &clock : nullptr);
+              block_forces(*this, table, setup.time_step_s, b, mine, false, clocked ? &clock : nullptr);
             }
             const double t = clocked ? omp_get_wtime() : 0;
             MoveView v = move_view(mine);

@@ -19,7 +19,7 @@ struct ContactGeometry {
 };
 
 /// Everything a contact remembers between steps. 64 bytes = one cache line. All zero = new contact.
-struct ContactHistory {
+struct alignas(64) ContactHistory {
   Trio spring;            ///< [N] tangential spring force on i
   double contact_radius;  ///< [m] sqrt(R* overlap) (or EEPA's stiffness measure) of the last step: the springs shrink with it
   Trio rolling;           ///< [N m] rolling spring torque on i
