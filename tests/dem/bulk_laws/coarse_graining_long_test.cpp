@@ -50,6 +50,17 @@ Wall profile(const char* name, const std::vector<std::pair<double, double>>& yz_
 /// Mass of `diameters` of height of a bed over the depth and `length`.
 double bed_mass(double length_m, double height_m) { return 0.58 * kDensity * kDepth * length_m * height_m; }
 
+/// Mean flow while 5 to 40 % of `all` crosses: before, the slot is opening; later, the level and the side slopes run down.
+double early_flow(const std::vector<CounterRecord>& records, double all) {
+  double mass = 0, from = 0;
+  for (const CounterRecord& r : records) {
+    if (mass < 0.05 * all) from = r.time_s;
+    mass += r.mass_kg;
+    if (mass > 0.4 * all) return (mass - 0.05 * all) / (r.time_s - from);
+  }
+  return std::nan("");
+}
+
 struct Hopper {
   double flow_kg_s, slope_deg;
 };
@@ -69,7 +80,7 @@ Hopper hopper(double cg, std::uint64_t seed) {
   const CaseResult r = run(c);
   double z = 0, m = 0;
   for (const GrainRecord& g : r.final_state) z += std::pow(g.diameter_m, 3) * g.position_m.z(), m += std::pow(g.diameter_m, 3);
-  return {steady_flow(r.records[0]).mean_kg_s, std::atan(3 * z / m / left) * 180 / std::numbers::pi};
+  return {early_flow(r.records[0], r.mass_put_in_kg), std::atan(3 * z / m / left) * 180 / std::numbers::pi};
 }
 
 struct Belt {

@@ -68,7 +68,7 @@ TEST(ReadyCases, the_lifted_cylinder_leaves_a_heap_at_rest) {
 }
 
 TEST(ReadyCases, four_holes_follow_beverloo) {
-  const Done r = run("discharge_holes.json", "3.3");
+  const Done r = run("discharge_holes.json", "2.5");  // as it is: with coarser grains the 6 mm hole blocks
   double before = 0;
   for (const char* size : {"6", "7.5", "9", "10.5"}) {
     const Kpi& flow = r.kpi(std::string("flow_at_") + size + "_mm_g_s");
@@ -76,10 +76,10 @@ TEST(ReadyCases, four_holes_follow_beverloo) {
     expect_error_bar(flow, 0.15 * flow.value);
     before = flow.value;
   }
-  // Beverloo's constants of many powders: C 0.55 … 0.65, k 1.2 … 1.7; holes of 4.6 to 8 grains are below the law's range (6), so twice the band.
-  EXPECT_NEAR(r.kpi("beverloo_k").value, 1.45, 0.75);
-  EXPECT_NEAR(r.kpi("beverloo_constant").value, 0.6, 0.2);
-  EXPECT_GT(r.kpi("beverloo_r2").value, 0.98);
+  // Beverloo's constants of many powders: C 0.55 … 0.65, k 1.2 … 1.7, and two error bars of this run (0.02, 0.14); C falls with friction.
+  EXPECT_NEAR(r.kpi("beverloo_k").value, 1.45, 0.5);
+  EXPECT_NEAR(r.kpi("beverloo_constant").value, 0.55, 0.14);
+  EXPECT_GT(r.kpi("beverloo_r2").value, 0.995);  // W^(2/5) against D is a straight line
   EXPECT_EQ(r.result.mass_lost_box_kg, 0);
 }
 
