@@ -39,15 +39,6 @@ void account(const PairView& v, const PairBatch& batch, const std::uint32_t* pai
   }
 }
 
-/// What the batch of contacts from `from` on will read that the scan has not brought near.
-void fetch_ahead(const PairView& v, const PairChunk& touching, std::size_t from) {
-  for (std::size_t k = from; k < std::min(touching.count, from + kBatchWidth); ++k) {
-    const std::size_t p = touching.pair[k];
-    __builtin_prefetch(v.motion + v.second(p));
-    __builtin_prefetch(v.history + v.place[p], 1);
-  }
-}
-
 template <class L>
 void evaluate(Simulation::Impl& sim, const LawTable<L>& table, const PairView& v, const std::uint32_t* pair, int count, double dt, PairBatch& batch,
               BlockBook& book) {
@@ -118,9 +109,7 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
     v = sim.pair_view(b, scratch.sum);  // new contacts may have moved the histories
     if (keep) list.contacts[b].kept.grow(list.contacts[b].history.size()), v.kept = list.contacts[b].kept.data();
     lap(&PassClock::scan);
-    fetch_ahead(v, scratch.touching, 0);
     for (std::size_t k = 0; k < scratch.touching.count; k += kBatchWidth) {
-      fetch_ahead(v, scratch.touching, k + kBatchWidth);
       scratch.ahead.some(kLinesPerBatch);
       evaluate(sim, table, v, scratch.touching.pair + k, static_cast<int>(std::min<std::size_t>(kBatchWidth, scratch.touching.count - k)), dt,
                scratch.batch, book);
