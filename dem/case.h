@@ -146,7 +146,8 @@ struct PicturePlan {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
 };
 
-enum class LawKind { hertz_mindlin_epsd, eepa };
+/// liggghts_hertz repeats LIGGGHTS' formulas with their faults, for comparing codes only (dem/contact/liggghts_hertz/law.h).
+enum class LawKind { hertz_mindlin_epsd, eepa, liggghts_hertz };
 struct EepaParameters { double stiffness_ratio_k2_k1 = 5, adhesion_ratio_kadh_k1 = 0.5, exponent = 1.5, constant_force_n = 0; };
 
 /// Narrow place that grains must pass: never part of the run, only of the warning about coarse grains (dem/coarse_graining/openings.h).

@@ -8,6 +8,7 @@
 
 #include "dem/contact/eepa/batch.h"
 #include "dem/contact/hertz_mindlin/batch.h"
+#include "dem/contact/liggghts_hertz/batch.h"
 
 namespace venato::dem {
 namespace {
@@ -124,6 +125,7 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
   lap(&PassClock::walls);
 }
 template void block_forces(Simulation::Impl&, const LawTable<HertzMindlin>&, double, std::size_t, BlockScratch&, bool, PassClock*);
+template void block_forces(Simulation::Impl&, const LawTable<LiggghtsHertz>&, double, std::size_t, BlockScratch&, bool, PassClock*);
 template void block_forces(Simulation::Impl&, const LawTable<Eepa>&, double, std::size_t, BlockScratch&, bool, PassClock*);
 
 void prepare_batch(const Simulation::Impl& sim, PairBatch& batch) {

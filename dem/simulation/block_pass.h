@@ -13,7 +13,7 @@ struct BlockScratch {
   PairBatch batch;
   PairChunk touching, changed;
   LoadRow sum[kGrainsPerBlock + 1];  ///< forces on the block's grains; the last takes what belongs to other blocks
-  std::vector<WallContact> wall;
+  WallScratch wall;
   FetchAhead ahead;
 };
 

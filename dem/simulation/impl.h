@@ -9,6 +9,7 @@
 
 #include "dem/contact/eepa/law.h"
 #include "dem/contact/hertz_mindlin/law.h"
+#include "dem/contact/liggghts_hertz/law.h"
 #include "dem/neighbours/cell_grid.h"
 #include "dem/neighbours/pair_list.h"
 #include "dem/neighbours/reach_plan.h"
@@ -33,7 +34,7 @@ struct LawTable {
   std::size_t materials = 0;
   const L& of(std::int32_t a, std::int32_t b) const { return law[static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b)]; }
 };
-using AnyLawTable = std::variant<LawTable<HertzMindlin>, LawTable<Eepa>>;
+using AnyLawTable = std::variant<LawTable<HertzMindlin>, LawTable<Eepa>, LawTable<LiggghtsHertz>>;
 
 struct WallContact {
   std::int32_t wall;
@@ -42,6 +43,16 @@ struct WallContact {
   double overlap;
   ContactForce force;
   Trio on_grain, torque_on_grain;
+};
+/// Where a grain touches a candidate wall, in the world's frame.
+struct WallTouchAt {
+  std::int32_t candidate;
+  Vec3 point, normal;  ///< normal from the grain into the wall
+  double distance;
+};
+struct WallScratch {  ///< working memory of one thread
+  std::vector<WallTouchAt> touch;
+  std::vector<WallContact> contact;
 };
 struct WallCandidate {
   std::int32_t wall, first_triangle, triangle_count;
@@ -144,7 +155,8 @@ struct Simulation::Impl {
   void settle_contacts(double dt);  ///< books of block_forces()
   void settle_motion();             ///< books of move_grain()
   template <class L>
-  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, std::vector<WallContact>& scratch, LoadRow& sum);
+  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, WallScratch& scratch, LoadRow& sum);
+  void find_wall_touches(std::size_t s, std::vector<WallTouchAt>& touch) const;
 
   // helpers
   /// Rounds a displacement to the grid of 2^-52 of the box size in periodic directions: positions are then exact multiples of one quantum, so that

@@ -55,8 +55,7 @@ void for_touching_pairs(const Simulation::Impl& e, const F& f) {
     for (std::size_t p = static_cast<std::size_t>(e.pairs.block_first[b]); p < static_cast<std::size_t>(e.pairs.block_first[b + 1]); ++p) {
       if (!e.pairs.touching[p]) continue;
       const std::size_t i = PairList::block_start(b) + e.pairs.own[p], j = static_cast<std::size_t>(e.pairs.partner[p]);
-      if (e.card[i].id < e.card[j].id && alive(e, i) && alive(e, j))
-        f(i, j, e.pairs.history_of(b, p), e.pairs.contacts[b].kept[e.pairs.place[p]]);
+      if (e.card[i].id < e.card[j].id && alive(e, i) && alive(e, j)) f(i, j, e.pairs.history_of(b, p), e.pairs.contacts[b].kept[e.pairs.place[p]]);
     }
 }
 template <class F>

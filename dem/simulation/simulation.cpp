@@ -22,6 +22,8 @@ LawTable<L> make_table(const MaterialTable& m, const Make& make) {
 
 AnyLawTable make_laws(const SimulationSetup& s) {
   if (s.law == LawKind::eepa) return make_table<Eepa>(s.materials, [&](int a, int b) { return make_eepa(s.materials, s.eepa, a, b); });
+  if (s.law == LawKind::liggghts_hertz)
+    return make_table<LiggghtsHertz>(s.materials, [&](int a, int b) { return make_liggghts_hertz(s.materials, a, b); });
   return make_table<HertzMindlin>(s.materials, [&](int a, int b) { return make_hertz_mindlin(s.materials, a, b); });
 }
 }  // namespace
