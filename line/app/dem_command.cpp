@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
@@ -15,6 +16,8 @@
 namespace venato::line::app {
 namespace {
 constexpr const char* kCodeVersion = "2";
+// Below that a second thread waits more than it works; on a busy machine, where threads wait for each other to be scheduled, by a factor of 100.
+constexpr double kFewestGrainsPerThread = 1500;
 
 template <class... Args>
 std::string printed(const char* format, Args... args) {
@@ -24,9 +27,9 @@ std::string printed(const char* format, Args... args) {
 }
 
 std::string cost_line(const dem::Case& c, const dem::CaseCost& cost, int threads) {
-  return printed("%s: about %.0f grains, %.0f steps of %.3g us, %.2g particle-steps, %.0f MiB, about %s on %d threads", c.name.c_str(),
+  return printed("%s: about %.0f grains, %.0f steps of %.3g us, %.2g particle-steps, %.0f MiB, about %s on %d thread%s", c.name.c_str(),
                  cost.particles, cost.steps, 1e6 * dem::choose_time_step(c), cost.particle_steps, std::max(1.0, cost.memory_bytes / 1048576.0),
-                 duration_text(cost.seconds).c_str(), threads);
+                 duration_text(cost.seconds).c_str(), threads, threads == 1 ? "" : "s");
 }
 
 /// What happens to the state that an interrupted run of the same case left.
@@ -55,6 +58,10 @@ int dem_command(const Options& o, Context& context) {
   for (const auto& text : o.overrides) overrides.push_back(parse_override(text));
   ReadOutcome outcome;
   const auto c = dem::load_case(o.input, overrides, &outcome);
+  if (o.threads == 0) {  // not asked for a number; results do not depend on it
+    const double useful = std::max(1.0, std::floor(dem::estimate_cost(c, 1).particles / kFewestGrainsPerThread));
+    context.threads = static_cast<int>(std::min<double>(context.threads, useful));
+  }
   context.log.info(cost_line(c, dem::estimate_cost(c, context.threads), context.threads));
   context.seed = c.seed;
 

@@ -58,7 +58,10 @@ Parsed parse(int argc, const char* const* argv) {
   auto* go_on = dem->add_flag("--resume", o.resume, "go on from where an earlier run of this case was stopped (bit for bit); without one, start");
   dem->add_flag("--restart", o.restart, "throw away what an earlier run of this case left and begin anew")->excludes(go_on);
   dem->add_option("--until", o.until_s, "stop at this simulated time with results so far and a checkpoint; --resume goes on from it")
-      ->check(CLI::PositiveNumber)
+      ->check([](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0 ? std::string() : "'" + text + "' is not a time > 0 [s]";
+      })
       ->type_name("TIME_S");
   dem->add_flag("--profile", o.profile, "show how the time is spent, by phase of the step");
   dem->footer(
