@@ -88,34 +88,20 @@ std::vector<Wall> two_plates(double step_m) {
   return {plate(-4e-3, 0, 0), plate(0, 4e-3, step_m)};
 }
 /// Two walls (two machine parts) whose plates lie in one plane and meet at x = 0: a grain that rolls over the seam has one contact all the way and
-/// goes as on the plane, up to the springs, which may restart at the seam: 1 % of the way, no hop (1 % of the static overlap at rest is 6e-10 m, the
-/// hop of a doubled contact 37 % of the overlap). Disabled: wall_forces() removes doubled touches within one wall only, so near the seam (within
-/// sqrt(2 R d) of it) both plates push. The fix belongs there: collect the touches of all walls, nearest first, and drop one whose point lies on a
-/// nearer wall.
-TEST(Seam, DISABLED_TwoCoplanarWallsAreOneFloor) {
-  const Path plane = roll({rigid_plane()}, Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250),
-             seam = roll(two_plates(0), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250);
-  EXPECT_EQ(seam.most_contacts, 1u);
-  const double overlap = static_overlap(kPowder, kPowder.mass() * kG);
-  for (std::size_t k = 0; k < plane.position.size(); ++k) {
-    EXPECT_NEAR(seam.position[k].x(), plane.position[k].x(), 2e-5) << k;
-    EXPECT_NEAR(seam.position[k].z(), plane.position[k].z(), .01 * overlap) << k;
-  }
-  EXPECT_GT(plane.position.back().x(), 5e-4);
-}
-/// What that costs, as a bound that holds with or without the doubling: the grain crosses the seam, loses at most 2 % of the way it makes on the
-/// plane, hops by no more than the static overlap, and never has more than two contacts. A real step of half an overlap fails.
-TEST(Seam, TwoCoplanarWallsAreAlmostOneFloor) {
+/// goes as on the plane, springs carried over: 2e-5 of a metre was allowed for springs that restart; carried over it is rounding (1e-9 m), and no hop
+/// (1 % of the static overlap; a doubled contact hops by 37 % of it). Control: a real step of a hundredth of the overlap is seen.
+TEST(Seam, TwoCoplanarWallsAreOneFloor) {
   const double overlap = static_overlap(kPowder, kPowder.mass() * kG);
   const Path plane = roll({rigid_plane()}, Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250);
-  auto almost = [&](const Path& p) {
-    bool ok = p.most_contacts <= 2 && std::abs(p.position.back().x() - plane.position.back().x()) <= .02 * (plane.position.back().x() + 1e-3);
-    for (std::size_t k = 0; ok && k < p.position.size(); ++k) ok = std::abs(p.position[k].z() - plane.position[k].z()) <= overlap;
-    return ok;
+  auto as_on_the_plane = [&](const Path& p) {
+    bool same = p.most_contacts == 1u;
+    for (std::size_t k = 0; k < plane.position.size(); ++k)
+      same = same && std::abs(p.position[k].x() - plane.position[k].x()) <= 1e-9 && std::abs(p.position[k].z() - plane.position[k].z()) <= .01 * overlap;
+    return same;
   };
   EXPECT_GT(plane.position.back().x(), 5e-4);
-  EXPECT_TRUE(almost(roll(two_plates(0), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250)));
-  EXPECT_FALSE(almost(roll(two_plates(20 * overlap), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250)));
+  EXPECT_TRUE(as_on_the_plane(roll(two_plates(0), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250)));
+  EXPECT_FALSE(as_on_the_plane(roll(two_plates(.05 * overlap), Vec3(-1e-3, 0, 0), Vec3(.06, 0, 0), 250)));
 }
 
 /// A plane is a sphere of infinite radius. A rigid frozen sphere of 4000 radii: R* differs by 2.5e-4, the lever R - d/2 from R by d / 2R = 6e-4 here;
