@@ -117,7 +117,7 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
     }
     lap(&PassClock::contact);
   }
-  book.wall.assign(sim.walls.size(), WallLoad());
+  book.wall.assign(sim.walls.size(), WallSum());
   const std::size_t start = PairList::block_start(b), end = sim.block_end(b);
   for (std::size_t s = start; s < end; ++s)
     if (sim.wall_list.first[s] < sim.wall_list.first[s + 1]) sim.wall_forces(table, s, dt, book, scratch.wall, scratch.sum[s - start]);

@@ -13,6 +13,7 @@
 #include "dem/neighbours/cell_grid.h"
 #include "dem/neighbours/pair_list.h"
 #include "dem/neighbours/reach_plan.h"
+#include "dem/simulation/exact_sum.h"
 #include "dem/simulation/pair_lanes.h"
 #include "dem/simulation/simulation.h"
 #include "dem/walls/wall_model.h"
@@ -67,6 +68,17 @@ struct WallList {
   std::vector<WallContact> contact;
 };
 
+/// Load of the grains on one wall.
+struct WallSum {
+  ExactSum force[3], torque[3];
+  void add(const Vec3& f, const Vec3& t) {
+    for (int a = 0; a < 3; ++a) force[a].add(f[a]), torque[a].add(t[a]);
+  }
+  void add(const WallSum& o) {
+    for (int a = 0; a < 3; ++a) force[a].add(o.force[a]), torque[a].add(o.torque[a]);
+  }
+};
+
 /// Sums of one block of grains; blocks do not depend on the thread count, and are added in order.
 struct BlockBook {
   bool strayed = false;  ///< a grain left its path in the neighbour list by more than its allowance
@@ -75,7 +87,7 @@ struct BlockBook {
   std::int64_t contact_sides = 0, wall_contacts = 0;  ///< a pair of grains has two sides
   ContactLoss loss;
   double wall_work = 0;
-  std::vector<WallLoad> wall;
+  std::vector<WallSum> wall;
   std::vector<Crossing> crossing;
 };
 

@@ -216,20 +216,20 @@ bool Simulation::Impl::list_is_stale() const {
 }
 
 void Simulation::Impl::settle_contacts(double dt) {
-  std::fill(wall_load.begin(), wall_load.end(), WallLoad());
+  std::vector<WallSum> on_wall(walls.size());
   double sides = 0, on_walls = 0;
   for (BlockBook& b : books) {
-    for (std::size_t w = 0; w < b.wall.size(); ++w) {
-      wall_load[w].force_n += b.wall[w].force_n;
-      wall_load[w].torque_n_m += b.wall[w].torque_n_m;
-    }
+    for (std::size_t w = 0; w < b.wall.size(); ++w) on_wall[w].add(b.wall[w]);
     stats.max_overlap = std::max(stats.max_overlap, b.overlap);
     sides += static_cast<double>(b.contact_sides), on_walls += static_cast<double>(b.wall_contacts);
     lost.normal += b.loss.normal, lost.tangential_damping += b.loss.tangential_damping;
     lost.sliding += b.loss.sliding, lost.rolling += b.loss.rolling;
     wall_work += b.wall_work;
   }
-  for (std::size_t w = 0; w < walls.size(); ++w) wall_impulse[w] += dt * wall_load[w].force_n;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    for (int a = 0; a < 3; ++a) wall_load[w].force_n[a] = on_wall[w].force[a].value(), wall_load[w].torque_n_m[a] = on_wall[w].torque[a].value();
+    wall_impulse[w] += dt * wall_load[w].force_n;
+  }
   stats.pair_count = static_cast<double>(pairs.pair_count());
   stats.contact_count = 0.5 * sides + on_walls;
 }

@@ -123,9 +123,8 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
     const Trio &f = now.on_grain, &t_on = now.torque_on_grain;
     walls_sum.v[0] += f.x, walls_sum.v[1] += f.y, walls_sum.v[2] += f.z, walls_sum.v[3] += t_on.x, walls_sum.v[4] += t_on.y, walls_sum.v[5] += t_on.z;
     const Vec3 on_wall = -to_vec3(now.on_grain);
-    book.wall[static_cast<std::size_t>(c.wall)].force_n += on_wall;
-    book.wall[static_cast<std::size_t>(c.wall)].torque_n_m +=
-        (at - w.wall.motion.rotation_centre - w.pose.offset_m).cross(on_wall) - to_vec3(now.force.rolling);
+    book.wall[static_cast<std::size_t>(c.wall)].add(
+        on_wall, Vec3((at - w.wall.motion.rotation_centre - w.pose.offset_m).cross(on_wall) - to_vec3(now.force.rolling)));
     book.overlap = std::max(book.overlap, now.overlap / x.r);
     ++book.wall_contacts;
     if (setup.track_energy && dt > 0) {
