@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "dem/contact/kernels/restitution.h"
 #include "dem/psd/check_sizes.h"
 #include "dem/run_case.h"
 
@@ -131,5 +132,46 @@ double choose_time_step(const Case& c) {
   if (!std::isfinite(step) || !(step > 0))
     throw UsageError("case '" + c.name + "': the time step bounds are not finite (check materials, sizes, wall motions)");
   return step;
+}
+
+std::vector<StepRestitution> restitution_at_step(const Case& c, double dt) {
+  std::vector<StepRestitution> all;
+  if (c.law != LawKind::hertz_mindlin_epsd) return all;
+  const auto& table = c.materials.materials;
+  const std::vector<SmallestGrain> grains = smallest_grains(c);
+  auto add = [&](const SmallestGrain& g, int other, double m_eff, double r_eff, double speed) {
+    const Material &a = table[static_cast<std::size_t>(g.material)], &b = table[static_cast<std::size_t>(other)];
+    const double asked = c.materials.pair(g.material, other).restitution;
+    const double alpha = std::sqrt(5.0) * damping_for_restitution(asked);
+    const double overlap = std::pow(15 * m_eff * speed * speed / (16 * effective_modulus(a, b) * std::sqrt(r_eff)), 0.4);
+    StepRestitution r{a.name, b.name, asked, 0, 0, 2.9432 * overlap / speed / dt};
+    if (!(r.steps_per_contact > 1)) return;  // the Hertz bound does not allow it
+    constexpr int kPhases = 16;
+    for (int k = 0; k < kPhases; ++k) {
+      const double e = dem::restitution_at_step(alpha, r.steps_per_contact, (k + 0.5) / kPhases);
+      r.got += e / kPhases;
+      r.largest_error = std::max(r.largest_error, std::abs(e - asked));
+    }
+    all.push_back(r);
+  };
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const SmallestGrain& g = grains[i];
+    const double mass = grain_mass(g.radius_m, table[static_cast<std::size_t>(g.material)].density_kg_m3);
+    for (std::size_t k = i; k < grains.size(); ++k) {
+      const SmallestGrain& h = grains[k];
+      const double other = grain_mass(h.radius_m, table[static_cast<std::size_t>(h.material)].density_kg_m3);
+      add(g, h.material, mass * other / (mass + other), g.radius_m * h.radius_m / (g.radius_m + h.radius_m), c.expected_max_speed_m_s);
+    }
+    std::vector<int> seen;
+    for (const Wall& wall : c.walls) {
+      if (std::find(seen.begin(), seen.end(), wall.material) != seen.end()) continue;
+      seen.push_back(wall.material);
+      double fastest = 0;
+      for (const Wall& w : c.walls)
+        if (w.material == wall.material) fastest = std::max(fastest, wall_speed(w, c.box));
+      add(g, wall.material, mass, g.radius_m, c.expected_max_speed_m_s + fastest);
+    }
+  }
+  return all;
 }
 }  // namespace venato::dem

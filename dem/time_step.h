@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "dem/case.h"
 namespace venato::dem {
 
@@ -27,4 +30,13 @@ struct TimeStepBounds {
 };
 /// \throws UsageError for a case without grains, or with materials, sizes, speeds that give no time step.
 TimeStepBounds time_step_bounds(const Case& c);
+
+/// What becomes of the restitution of an impact at a given step: the damping is solved for exact time (design: the error at the production step is told).
+struct StepRestitution {
+  std::string a, b;            ///< materials
+  double asked, got, largest_error;  ///< [-] mean over the phases of the step, and the largest difference from `asked` among them
+  double steps_per_contact;
+};
+/// Of every pair of materials that can meet, for its smallest grains at expected_max_speed (walls: plus their own), Hertz-Mindlin; empty for other laws.
+std::vector<StepRestitution> restitution_at_step(const Case& c, double time_step_s);
 }  // namespace venato::dem

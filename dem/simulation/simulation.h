@@ -122,6 +122,8 @@ class Simulation {
   void remove_grain(GrainId id);
   void remove_grains(std::span<const GrainId> ids);
   int add_wall(const Wall& wall);  ///< returns its index
+  /// A motion is a function of the time since the start of the run: a velocity without `translate_when` puts the wall at once where it would be had it
+  /// moved from time 0. Give the interval from now on to let it start here.
   void set_wall_motion(int wall, const WallMotion& motion);
   /// Sets velocity and spin of a grain (kicks, frozen grains that are moved kinematically).
   void set_velocity(GrainId id, const Vec3& velocity_m_s, const Vec3& spin_rad_s);

@@ -9,6 +9,7 @@
 #include "dem/case_outputs/case_outputs.h"
 #include "dem/case_reader.h"
 #include "dem/picture/picture.h"
+#include "dem/time_step.h"
 #include "graphics/graphic.h"
 #include "line/app/commands.h"
 #include "line/app/dem_work.h"
@@ -30,6 +31,15 @@ std::string cost_line(const dem::Case& c, const dem::CaseCost& cost, int threads
   return printed("%s: about %.0f grains, %.0f steps of %.3g us, %.2g particle-steps, %.0f MiB, about %s on %d thread%s", c.name.c_str(),
                  cost.particles, cost.steps, 1e6 * dem::choose_time_step(c), cost.particle_steps, std::max(1.0, cost.memory_bytes / 1048576.0),
                  duration_text(cost.seconds).c_str(), threads, threads == 1 ? "" : "s");
+}
+
+/// The restitution that impacts have at this step, where it is farthest from what was asked for.
+void tell_restitution(const dem::Case& c, Log& log) {
+  const auto all = dem::restitution_at_step(c, dem::choose_time_step(c));
+  const auto worst = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.largest_error < b.largest_error; });
+  if (worst != all.end())
+    log.info(printed("%s: restitution %.3f asked, %.3f (+-%.3f) at this step, %.0f steps in an impact at full speed (%s on %s)", c.name.c_str(),
+                     worst->asked, worst->got, worst->largest_error, worst->steps_per_contact, worst->a.c_str(), worst->b.c_str()));
 }
 
 /// What happens to the state that an interrupted run of the same case left.
@@ -63,6 +73,7 @@ int dem_command(const Options& o, Context& context) {
     context.threads = static_cast<int>(std::min<double>(context.threads, useful));
   }
   context.log.info(cost_line(c, dem::estimate_cost(c, context.threads), context.threads));
+  tell_restitution(c, context.log);
   context.seed = c.seed;
 
   // Kept in the store under the case's content, so that --resume finds it whatever OUT is.

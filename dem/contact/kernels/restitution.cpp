@@ -48,6 +48,19 @@ HertzCollision collide_hertz(double alpha) {
   return {0, x_max / d_el, INFINITY};  // overdamped: creeps out of the contact (alpha -> sqrt 5)
 }
 
+double restitution_at_step(double alpha, double steps, double phase) {
+  VENATO_EXPECTS(steps > 1 && phase >= 0 && phase < 1);
+  const double dt = 2.9432 * std::pow(1.25, 0.4) / steps;
+  double x = -phase * dt, v = 1, a = 0;
+  for (int k = 0; k < kLongest && !(x < 0 && v < 0); ++k) {
+    v += 0.5 * dt * a;
+    x += dt * v;
+    a = -repulsion(alpha, x, v);
+    v += 0.5 * dt * a;
+  }
+  return x < 0 && v < 0 ? -v : 0.0;
+}
+
 double textbook_damping(double restitution) {
   const double l = std::log(restitution);
   return -l / std::sqrt(l * l + std::numbers::pi * std::numbers::pi);
