@@ -22,6 +22,7 @@ nlohmann-json3-dev       reads configs
 libspdlog-dev            messages and log
 libcli11-dev             command line
 libssl-dev               SHA-256 of stored operators and printer files
+libhwy-dev               vector code of the contact loop, chosen for the CPU at run time
 libhdf5-dev              run data, operators, checkpoints
 libopencv-core-dev       images
 libopencv-imgproc-dev    image filters and warps

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -39,6 +40,9 @@ using WallShape = std::variant<PlaneShape, CylinderShape, MeshShape>;
 
 /// Profile (y, z) polyline extruded across the belt from x_low to x_high (periodic x: give the box limits).
 MeshShape extrude_profile(const std::vector<std::pair<double, double>>& yz_m, double x_low_m, double x_high_m);
+/// Flat ring (inner radius 0: disc): plate with a round hole, its lid, the end of a drum. Polygons of the areas of the two circles.
+/// \throws UsageError for radii that are no ring, a normal without length.
+MeshShape make_ring(const Vec3& centre, const Vec3& normal, double inner_radius_m, double outer_radius_m, int segments = 64);
 /// STL (or any mesh assimp reads), scaled to metres. \throws UsageError naming the file (missing, empty, not a mesh, > limits).
 MeshShape load_mesh(const std::filesystem::path& file, double scale_to_m);
 
@@ -69,13 +73,17 @@ struct Wall {
 };
 
 // ---- filling and emptying ----------------------------------------------------------------------------------------------------
-/// Loose block of grains placed at t = 0 on a jittered lattice without overlap inside a region, given by a solid fraction or a mass.
+/// Block of grains placed at t = 0 inside a region: loose on a jittered lattice without overlap, or as a dense random packing (dem/packing/pack_dense.h).
 struct Fill {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   std::vector<double> powder_mass_fractions;   ///< one per powder, sum 1; grains are assigned at random
   double mass_kg = 0;                          ///< 0 = as many as the lattice holds
   Vec3 velocity_m_s = Vec3::Zero();
+  /// > 0: dense random packing with this share of the region's volume (mass_kg must be 0). Periodic where the region spans a periodic box; its other faces
+  /// are flat. Grains that overlap a wall or an earlier grain by more than kDenseFillOverlap of their radius are left out.
+  double solid_fraction = 0;
 };
+constexpr double kDenseFillOverlap = 1e-3;     ///< of the smaller radius: largest overlap between grains of a fresh dense fill
 /// Rain: grains appear without overlap at random places of a region at a mass rate while on; what does not fit is retried next step and
 /// counted (`starved`).
 struct Rain {
@@ -124,8 +132,32 @@ struct FieldPlan {
 /// Time series of every counter, of grain number, mass, kinetic energy, wall forces.
 struct SeriesPlan { double every_s = 0.005; };
 
-enum class LawKind { hertz_mindlin_epsd, eepa };
+/// Where the viewer stands: front looks along +y (x right, z up), side along -x (y right, z up: the way of the belt), top down (x right, y up).
+enum class PictureView { front, side, top, oblique };
+enum class PictureColour { powder, speed, size };
+/// Pictures of the particles (dem/picture/picture.h) during a run.
+struct PicturePlan {
+  double every_s = 0;                          ///< 0 = none; from t = 0 on, and one at the end
+  PictureView view = PictureView::front;
+  PictureColour colour = PictureColour::powder;
+  double full_speed_m_s = 0;                   ///< end of the speed scale; 0 = expected_max_speed_m_s
+  int width_px = 900;
+  bool has_region = false;                     ///< else the box
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+};
+
+/// liggghts_hertz repeats LIGGGHTS' formulas with their faults, for comparing codes only (dem/contact/liggghts_hertz/law.h).
+enum class LawKind { hertz_mindlin_epsd, eepa, liggghts_hertz };
 struct EepaParameters { double stiffness_ratio_k2_k1 = 5, adhesion_ratio_kadh_k1 = 0.5, exponent = 1.5, constant_force_n = 0; };
+
+/// Narrow place that grains must pass: never part of the run, only of the warning about coarse grains (dem/coarse_graining/openings.h).
+struct Opening {
+  std::string name;
+  double size_m = 0;    ///< diameter of a hole, width of a slot or gap
+  bool slot = false;
+};
+
+struct Rig;  // dem/rigs/rig_api.h
 
 struct Case {
   std::string name;
@@ -150,5 +182,9 @@ struct Case {
   std::vector<SnapshotPlan> snapshots;
   std::optional<FieldPlan> fields;
   double vtk_every_s = 0;                      ///< > 0: ParaView files (needs RunOptions::vtk_folder)
+  PicturePlan pictures;                        ///< needs RunOptions::on_picture
+  std::vector<Opening> openings;               ///< as stated by the case and its rig
+  double layer_thickness_m = 0;                ///< thinnest layer that matters; 0 = not stated
+  std::shared_ptr<const Rig> rig;              ///< bench rig that measures the result; null = none. Never changes the run
 };
 }  // namespace venato::dem

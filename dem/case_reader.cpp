@@ -5,6 +5,7 @@
 
 #include "dem/case_reader_parts.h"
 #include "dem/material_reader.h"
+#include "dem/rigs/rig_api.h"
 
 namespace venato::dem {
 namespace {
@@ -75,6 +76,34 @@ void read_powders(ObjectReader& r, Case& c) {
   r.number("coarse_graining", c.coarse_graining, {1, 20, ""}, {.help = "grain diameters are the powder's times this", .fallback = 1.0});
 }
 
+void read_pictures(ObjectReader& r, Case& c) {
+  r.optional_object("pictures", "pictures of the particles (PNG) while the case runs", [&c](ObjectReader& o) {
+    PicturePlan& p = c.pictures;
+    o.number("every_s", p.every_s, {1e-6, 1e4, "s"}, {.help = "interval of the pictures, from the start; one more at the end"});
+    o.choice("view", p.view,
+             {{"front", PictureView::front}, {"side", PictureView::side}, {"top", PictureView::top}, {"oblique", PictureView::oblique}},
+             {.help = "front: x right, z up; side: y right, z up; top: x right, y up", .fallback = "front"});
+    o.choice("colour", p.colour, {{"powder", PictureColour::powder}, {"speed", PictureColour::speed}, {"size", PictureColour::size}},
+             {.help = "what the colour of a grain shows", .fallback = "powder"});
+    o.number("full_speed_m_s", p.full_speed_m_s, {0, 100, "m/s"}, {.help = "end of the speed scale; 0 = expected_max_speed_m_s", .fallback = 0.0});
+    o.integer("width_px", p.width_px, {100, 4000, "px"}, {.help = "width of the picture", .fallback = 900});
+    p.has_region = o.optional_object("region", "part of the box that is shown; grains outside are left out, so this also cuts",
+                                     [&](ObjectReader& q) { read_region(q, c, p.low, p.high, "the region"); });
+  });
+}
+
+/// What the warning about coarse grains needs to know: it cannot be seen in the walls.
+void read_narrow_places(ObjectReader& r, Case& c) {
+  double opening = 0;
+  bool slot = false;
+  r.number("smallest_opening_mm", opening, {0, 1e4, "mm"},
+           {.help = "smallest hole, slot or gap that grains must pass: warns when coarse grains are too large for it; 0 = none", .fallback = 0.0});
+  r.choice("smallest_opening_form", slot, {{"hole", false}, {"slot", true}}, {.help = "round, or long (slots and gaps)", .fallback = "slot"});
+  r.number("layer_thickness_mm", c.layer_thickness_m, {0, 1e4, "mm"},
+           {.help = "thinnest layer that matters: warns when it has fewer than 10 coarse grains; 0 = none", .fallback = 0.0});
+  if (opening > 0) c.openings.push_back({"smallest opening", opening, slot});
+}
+
 void check_periodic(ObjectReader& r, const Case& c) {
   static constexpr const char* kAxis[] = {"x", "y", "z"};
   const double needed = 2 * largest_grain(c);  // below that a grain meets its own image, or the same neighbour from both sides
@@ -123,6 +152,9 @@ void read_case(ObjectReader& r, Case& c) {
         o.number("every_s", c.vtk_every_s, {0, 1000, "s"}, {.help = "interval of the files; 0 = none", .fallback = 0.0});
       },
       false);
+  read_pictures(r, c);
+  read_narrow_places(r, c);
+  read_rig(r, c);
 }
 
 Case load_case(const std::filesystem::path& file, const std::vector<Override>& overrides, ReadOutcome* outcome) {

@@ -11,7 +11,18 @@ constexpr Range kSpeed{-100, 100, "m/s"};
 void read_fill(ObjectReader& r, const Case& c, Fill& fill) {
   read_region(r, c, fill.low, fill.high, "the fill");
   read_fractions(r, c, fill.powder_mass_fractions);
-  r.number("mass_g", fill.mass_kg, {0, 1e6, "g"}, {.help = "0 = as many grains as a loose lattice holds", .fallback = 0.0});
+  bool dense = false;
+  r.choice("packing", dense, {{"lattice", false}, {"dense", true}},
+           {.help = "lattice: loose rows without contacts; dense: random close packing of solid_fraction", .fallback = "lattice"});
+  r.number("mass_g", fill.mass_kg, {0, 1e6, "g"}, {.help = "lattice: 0 = as many grains as it holds", .fallback = 0.0});
+  r.number("solid_fraction", fill.solid_fraction, {0, 0.74, "", "no packing of equal grains is denser"},
+           {.help = "dense: share of the region that is grains; 0.60 to 0.63 is close packed", .fallback = 0.0});
+  if (!r.describing()) {
+    if (dense && !(fill.solid_fraction >= 0.1))
+      r.issue("solid_fraction", "a dense packing needs one of at least 0.1", "0.60 is a settled bed of nearly equal grains");
+    if (!dense && fill.solid_fraction > 0) r.issue("solid_fraction", "has no meaning for a lattice", "use \"packing\": \"dense\" or mass_g");
+    if (dense && fill.mass_kg > 0) r.issue("mass_g", "has no meaning for a dense packing", "its mass follows from solid_fraction and the region");
+  }
   read_vec3(r, "velocity_m_s", fill.velocity_m_s, kSpeed, {.help = "velocity at the start", .fallback = kZero});
 }
 

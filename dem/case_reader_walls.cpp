@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "dem/case_reader_parts.h"
 #include "dem/material_reader.h"
 
@@ -9,6 +10,8 @@ namespace venato::dem {
 namespace {
 constexpr Range kPlace{-1e5, 1e5, "mm"};
 constexpr double kForever_s = 1e9;
+constexpr double kLiftShare = 0.4;  // of a tap's period
+constexpr int kFallKnots = 12;      // of the parabola of a free fall: speeds right to 4 %
 const std::vector<double> kZero{0, 0, 0};
 
 /// A direction as typed; an issue when it has no length.
@@ -47,6 +50,21 @@ void read_profile(ObjectReader& r, const Case& c, WallShape& shape) {
   }
 }
 
+void read_ring(ObjectReader& r, WallShape& shape) {
+  Vec3 centre = Vec3::Zero(), normal = Vec3::UnitZ();
+  double inner = 0, outer = 0;
+  read_vec3(r, "centre_mm", centre, kPlace, {.help = "centre"});
+  read_direction(r, "normal", normal, "across the ring's plane; any length, either side (grains touch both)");
+  r.number("inner_radius_mm", inner, {0, 1e5, "mm"}, {.help = "radius of the hole; 0 = a full disc", .fallback = 0.0});
+  r.number("outer_radius_mm", outer, {1e-3, 1e5, "mm"}, {.help = "outer radius"});
+  if (r.describing()) return;
+  if (!(outer > inner)) {
+    r.issue("outer_radius_mm", "the outer radius is not larger than the inner one", "inner_radius_mm < outer_radius_mm");
+    return;
+  }
+  shape = make_ring(centre, normal, inner, outer);
+}
+
 void read_mesh(ObjectReader& r, WallShape& shape) {
   std::filesystem::path file;
   double scale = 1e-3;
@@ -82,6 +100,29 @@ void read_track(ObjectReader& r, WallMotion& m) {
     m.track.push_back(knot);
   });
 }
+/// Taps of a tapped-density tester as an actuator track: lifted evenly in the first part of a period, free fall, rest.
+void read_tapping(ObjectReader& o, WallMotion& m) {
+  double from = 0, height = 0, period = 0;
+  int count = 0;
+  o.number("from_s", from, {0, kForever_s, "s"}, {.help = "first lift"});
+  o.number("height_mm", height, {1e-3, 100, "mm"}, {.help = "drop height of a tap (upwards, z)"});
+  o.number("period_s", period, {1e-3, 1e4, "s"}, {.help = "time from tap to tap"});
+  o.integer("count", count, {1, 2000, ""}, {.help = "number of taps"});
+  if (o.describing() || !(height > 0) || !(period > 0)) return;
+  const double fall = std::sqrt(2 * height / kStandardGravity_m_s2), lift = kLiftShare * period;
+  if (lift + fall > 0.9 * period) {
+    o.issue("period_s", "too short: lifting takes " + std::to_string(lift) + " s and falling " + std::to_string(fall) + " s", "leave time to rest");
+    return;
+  }
+  for (int tap = 0; tap < count; ++tap) {
+    const double start = from + tap * period;
+    m.track.push_back({start, Vec3::Zero()});
+    for (int k = 0; k <= kFallKnots; ++k) {
+      const double share = static_cast<double>(k) / kFallKnots;
+      m.track.push_back({start + lift + share * fall, Vec3(0, 0, height * (1 - share * share))});
+    }
+  }
+}
 }  // namespace
 
 void read_motion(ObjectReader& r, WallMotion& m) {
@@ -92,6 +133,10 @@ void read_motion(ObjectReader& r, WallMotion& m) {
     read_vec3(o, "centre_mm", m.rotation_centre, kPlace, {.help = "point on the axis"});
     read_vec3(o, "speed_deg_s", m.rotation_rad_s, {-1e5, 1e5, "deg/s"}, {.help = "rotation vector (right-hand rule)"});
   });
+  if (r.optional_object("tapping", "taps of a tapped-density tester: lifted and dropped, again and again",
+                        [&m](ObjectReader& o) { read_tapping(o, m); }) &&
+      r.has("track"))
+    r.issue("tapping", "there is a track too", "tapping is a track: give one of them");
   r.optional_object("vibration", "sinusoidal vibration", [&m](ObjectReader& o) { read_vibration(o, m); });
   read_vec3(r, "surface_velocity_m_s", m.surface_velocity_m_s, {-100, 100, "m/s"},
             {.help = "belt: the wall stays, its surface moves", .fallback = kZero});
@@ -105,6 +150,7 @@ void read_wall(ObjectReader& r, const Case& c, Wall& wall) {
          {{"plane", "infinite plane", [&](ObjectReader& b) { read_plane(b, wall.shape.emplace<PlaneShape>()); }},
           {"cylinder", "cylinder with open ends", [&](ObjectReader& b) { read_cylinder(b, wall.shape.emplace<CylinderShape>()); }},
           {"profile", "polyline in (y, z), extruded across the box", [&](ObjectReader& b) { read_profile(b, c, wall.shape); }},
+          {"ring", "flat ring or disc: a plate with a round hole, a lid, the end of a drum", [&](ObjectReader& b) { read_ring(b, wall.shape); }},
           {"mesh", "triangles from a file", [&](ObjectReader& b) { read_mesh(b, wall.shape); }}});
   r.optional_object("motion", "rigid motion; the parts add up", [&](ObjectReader& o) { read_motion(o, wall.motion); });
   r.optional_object("present", "the wall exists only then (gates, lids)", [&](ObjectReader& o) {

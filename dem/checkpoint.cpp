@@ -10,7 +10,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::uint64_t kMagic = 0x3144504b43454456ull;  // "VDECKPD1"
+constexpr std::uint64_t kMagic = 0x3244504b43454456ull;  // "VDECKPD2"
 
 void exchange_text(ByteWriter& a, const std::string& s) {
   a.value(static_cast<std::uint64_t>(s.size()));
@@ -23,7 +23,7 @@ void exchange(Archive& a, Run& r) {
   a.list(r.births), a.list(r.rains), a.list(r.waiting);
   for (auto& s : r.seen) a.list(s);
   a.list(r.counter_mass_kg), a.list(r.impulse_before);
-  a.value(r.sampled_at_s), a.value(r.samples), a.list(r.frames), a.list(r.vtk_times_s), a.value(r.delayed_hand_overs);
+  a.value(r.sampled_at_s), a.value(r.samples), a.list(r.frames), a.list(r.vtk_times_s), a.value(r.pictures), a.value(r.delayed_hand_overs);
   a.value(r.field_frames);
   if (r.fields) r.fields->exchange(a);
   auto& o = r.result;
@@ -64,7 +64,7 @@ std::uint64_t case_fingerprint(const Case& c) {
   w.value(c.coarse_graining), w.value(static_cast<int>(c.law)), w.value(c.eepa), w.value(c.expected_max_speed_m_s), w.value(c.rayleigh_fraction);
   w.value(c.hertz_fraction), w.value(c.time_step_s), w.value(c.duration_s), w.value(c.seed);
   for (const Wall& v : c.walls) add_shape(w, v.shape), add_motion(w, v.motion), w.value(v.material), w.value(v.present);
-  for (const Fill& f : c.fills) w.value(f.low), w.value(f.high), w.list(f.powder_mass_fractions), w.value(f.mass_kg), w.value(f.velocity_m_s);
+  for (const Fill& f : c.fills) w.value(f.low), w.value(f.high), w.list(f.powder_mass_fractions), w.value(f.mass_kg), w.value(f.velocity_m_s), w.value(f.solid_fraction);
   for (const Rain& r : c.rains)
     exchange_text(w, r.name), w.value(r.low), w.value(r.high), w.list(r.powder_mass_fractions), w.value(r.mass_rate_kg_s),
         w.value(r.resting_speed_m_s), w.list(r.when), w.value(r.velocity_m_s), w.value(r.level_z_m);
@@ -72,7 +72,7 @@ std::uint64_t case_fingerprint(const Case& c) {
     w.value(g.time_s), w.value(g.position_m), w.value(g.velocity_m_s), w.value(g.spin_rad_s), w.value(g.diameter_m), w.value(g.species);
   for (const Counter& k : c.counters)
     w.value(k.axis), w.value(k.position_m), w.value(k.sign), w.value(k.window_low), w.value(k.window_high), w.value(k.remove), w.value(k.first_only);
-  w.value(c.series.every_s), w.list(c.snapshots), w.value(c.vtk_every_s);
+  w.value(c.series.every_s), w.list(c.snapshots), w.value(c.vtk_every_s), w.value(c.pictures.every_s);
   if (c.fields)
     w.value(c.fields->width_m), w.value(c.fields->cell_m), w.value(c.fields->from_s), w.value(c.fields->to_s), w.value(c.fields->every_s),
         w.value(c.fields->diffusivity);

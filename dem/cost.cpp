@@ -29,6 +29,14 @@ double grains_per_kg(const Case& c, const std::vector<double>& fractions) {
   return n;
 }
 
+/// Grains of a dense fill, if no wall stands in its region.
+double dense_grains(const Case& c, const Fill& fill) {
+  double volume_per_kg = 0;
+  for (std::size_t k = 0; k < c.powders.size() && k < fill.powder_mass_fractions.size(); ++k)
+    volume_per_kg += fill.powder_mass_fractions[k] / c.materials.materials.at(static_cast<std::size_t>(c.powders[k].material)).density_kg_m3;
+  return volume_per_kg > 0 ? fill.solid_fraction * (fill.high - fill.low).prod() / volume_per_kg * grains_per_kg(c, fill.powder_mass_fractions) : 0;
+}
+
 /// Fills are packed in rows along x (each as wide as its largest grain) and layers (as high as theirs).
 double lattice_grains(const Case& c, const Fill& fill) {
   double largest = 0, volume_per_kg = 0;  // of the powders in the mixture
@@ -74,7 +82,7 @@ CaseCost estimate_cost(const Case& c, int threads) {
   const double step = choose_time_step(c);  // also checks materials and sizes
   GrainCount count;
   for (const Fill& fill : c.fills) {
-    const double holds = lattice_grains(c, fill);
+    const double holds = fill.solid_fraction > 0 ? dense_grains(c, fill) : lattice_grains(c, fill);
     const double n = fill.mass_kg > 0 ? fill.mass_kg * grains_per_kg(c, fill.powder_mass_fractions) : holds;
     add_from(count, n, 0, c.duration_s);
   }

@@ -2,12 +2,13 @@
 
 #include "base/h5/h5_file.h"
 #include "base/version.h"
+#include "dem/case_outputs/case_outputs.h"
 #include "dem/case_outputs/labels.h"
 #include "dem/fields/continuum_h5.h"
 #include "dem/run_case.h"
 
 // One table in code of what a DEM result holds; the layout is
-//   /series/*, /counters/<name>/*, /snapshots/<plan>/*, /fields/* (with Case::fields), /final/*, /balance/*, /names/*.
+//   /series/*, /counters/<name>/*, /snapshots/<plan>/*, /fields/* (with Case::fields), /final/*, /balance/*, /names/*, /kpi/*, /rig/<table>/*.
 namespace venato::dem {
 namespace {
 constexpr int kFormatVersion = 1;
@@ -149,7 +150,26 @@ std::vector<std::string> labels(const Case& c, const std::vector<T>& items, std:
 }
 }  // namespace
 
-void write_case_result(const std::filesystem::path& path, const Case& c, const CaseResult& r) {
+namespace {
+void write_report(H5Writer& file, const CaseReport& report) {
+  const auto texts = [&](const char* name, std::string Kpi::*member, const char* what) {
+    std::vector<std::string> all;
+    for (const Kpi& k : report.kpis) all.push_back(k.*member);
+    file.strings(std::string("/kpi/") + name, all, {"1", "kpi", "none", what});
+  };
+  texts("name", &Kpi::name, "name of each number"), texts("unit", &Kpi::unit, "its unit"), texts("description", &Kpi::description, "what it is");
+  texts("error_from", &Kpi::error_from, "what its standard error was made from");
+  const Dims n{report.kpis.size()};
+  file.dataset("/kpi/value", column<Kpi>(report.kpis, [](const Kpi& k) { return k.value; }), n, {"see /kpi/unit", "kpi", "none", "measured numbers"});
+  file.dataset("/kpi/standard_error", column<Kpi>(report.kpis, [](const Kpi& k) { return k.standard_error; }), n,
+               {"see /kpi/unit", "kpi", "none", "standard error, NaN = not known"});
+  for (const RigTable& table : report.tables)
+    for (const RigTable::Column& k : table.columns)
+      file.dataset("/rig/" + table.name + "/" + k.name, k.values, {k.values.size()}, {k.unit, "row", "none", k.description});
+}
+}  // namespace
+
+void write_case_result(const std::filesystem::path& path, const Case& c, const CaseResult& r, const CaseReport& report) {
   H5Writer file(path, "venato-dem-result", kFormatVersion);
   file.attribute("/", "code_version", version_string());
   file.attribute("/", "case", c.name);
@@ -165,6 +185,7 @@ void write_case_result(const std::filesystem::path& path, const Case& c, const C
   if (r.fields) write_fields(file, "/fields/", *r.fields);
   write_final(file, r.final_state);
   write_balance(file, r);
+  write_report(file, report);
   file.close();
 }
 }  // namespace venato::dem

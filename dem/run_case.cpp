@@ -53,6 +53,9 @@ void check_case(const Case& c) {
              ", outside the box (" + std::to_string(c.box.low[a] * 1e3) + " … " + std::to_string(c.box.high[a] * 1e3) + " mm)");
   };
   for (std::size_t k = 0; k < c.fills.size(); ++k) inside(c.fills[k].low, c.fills[k].high, "fill " + std::to_string(k));
+  for (std::size_t k = 0; k < c.fills.size(); ++k)
+    if (c.fills[k].solid_fraction > 0 && c.fills[k].mass_kg > 0)
+      fail("fill " + std::to_string(k) + " gives both a solid fraction (dense packing) and a mass (lattice)");
   for (const Rain& r : c.rains) inside(r.low, r.high, "rain '" + r.name + "'");
   for (std::size_t k = 0; k < c.fills.size(); ++k) fractions(c.fills[k].powder_mass_fractions, "fill " + std::to_string(k));
   for (const Rain& r : c.rains) fractions(r.powder_mass_fractions, "rain '" + r.name + "'");
@@ -67,12 +70,12 @@ void check_case(const Case& c) {
 
 void log_profile(const CaseRun& run) {
   const StepStatistics& s = run.sim.statistics();
-  const double all = s.seconds_list + s.seconds_contact + s.seconds_sum + s.seconds_integrate + s.seconds_walls;
+  const double all = s.seconds_list + s.seconds_scan + s.seconds_contact + s.seconds_integrate + s.seconds_walls;
   char line[256];
   std::snprintf(line, sizeof line,
-                "dem %s  profile: list %.1f %%  contact %.1f %%  sum and walls %.1f %%  integrate %.1f %%  wall motion %.1f %%  of %.2f s; %lld list "
+                "dem %s  profile: list %.1f %%  scan %.1f %%  contact %.1f %%  sum and integrate %.1f %%  walls %.1f %%  of %.2f s; %lld list "
                 "builds in %lld steps",
-                run.c.name.c_str(), 100 * s.seconds_list / all, 100 * s.seconds_contact / all, 100 * s.seconds_sum / all,
+                run.c.name.c_str(), 100 * s.seconds_list / all, 100 * s.seconds_scan / all, 100 * s.seconds_contact / all,
                 100 * s.seconds_integrate / all, 100 * s.seconds_walls / all, all, static_cast<long long>(s.list_builds),
                 static_cast<long long>(s.steps));
   run.context.log.info(line);
@@ -101,7 +104,7 @@ class Keeper {
     }
     if (stop)
       throw Interrupted("DEM case '" + run_.c.name + "' stopped at t = " + std::to_string(run_.sim.time_s()) + " s" +
-                        (file.empty() ? "" : "; the next run goes on from " + file.string()));
+                        (file.empty() ? "" : "; its state is in " + file.string()));
   }
 
  private:
@@ -133,17 +136,29 @@ CaseRun::CaseRun(const Case& case_, const RunOptions& options_, Context& context
   result.snapshots.resize(c.snapshots.size());
 }
 
+namespace {
+void resume(CaseRun& run, std::int64_t steps) {
+  load_checkpoint(run, run.options.checkpoint);
+  char line[200];
+  std::snprintf(line, sizeof line, "dem %s  goes on from t = %.6g s (%.0f %% of its steps)", run.c.name.c_str(), run.sim.time_s(),
+                100.0 * static_cast<double>(run.sim.step_number()) / static_cast<double>(steps));
+  run.context.log.info(line);
+}
+}  // namespace
+
 CaseResult run_case(const Case& c, const RunOptions& options, Context& context) {
   check_case(c);
   const double dt = c.time_step_s > 0 ? c.time_step_s : choose_time_step(c);
   CaseRun run(c, options, context, dt);
   const std::int64_t steps = static_cast<std::int64_t>(std::ceil(c.duration_s / dt * (1 - 1e-12)));
   if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint))
-    load_checkpoint(run, options.checkpoint);
+    resume(run, steps);
   else
     fill_regions(run);
-  Keeper keeper(run, steps);
-  while (run.sim.step_number() < steps) {
+  const std::int64_t until = options.until_s > 0 ? static_cast<std::int64_t>(std::ceil(options.until_s / dt * (1 - 1e-12))) : steps;
+  const std::int64_t last = std::min(steps, std::max(until, run.sim.step_number()));
+  Keeper keeper(run, last);
+  while (run.sim.step_number() < last) {
     if (run.sim.step_number() % kClockEvery == 0) keeper.look();
     rain_and_hand_over(run);
     observe(run);
@@ -153,12 +168,17 @@ CaseResult run_case(const Case& c, const RunOptions& options, Context& context) 
     count_crossings(run);
     if (run.sim.step_number() % kOutflowEvery == 0) remove_outside(run);
   }
-  if (!options.checkpoint.empty() && options.keep_checkpoint) save_checkpoint(run, options.checkpoint);
+  run.result.complete = last == steps;
+  const bool keep = options.keep_checkpoint || !run.result.complete;
+  // Before the last look: a run that goes on from here has not had it.
+  if (!options.checkpoint.empty() && keep) save_checkpoint(run, options.checkpoint);
+  const std::int64_t pictures_before = run.pictures;
   observe(run);
+  if (run.c.pictures.every_s > 0 && run.options.on_picture && run.pictures == pictures_before) take_picture(run);  // the end is always shown
   finish_result(run);
   run.result.wall_clock_s = keeper.elapsed_s();
   if (options.profile) log_profile(run);
-  if (!options.checkpoint.empty() && !options.keep_checkpoint) std::filesystem::remove(options.checkpoint);
+  if (!options.checkpoint.empty() && !keep) std::filesystem::remove(options.checkpoint);
   return std::move(run.result);
 }
 }  // namespace venato::dem

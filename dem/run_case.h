@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "dem/snapshot.h"
 
 namespace venato::dem {
+struct RgbImage;                 // dem/picture/picture.h
+struct CaseReport;               // dem/case_outputs/case_outputs.h
 struct FieldResult;               ///< dem/fields/field_recorder.h
 
 struct CounterRecord {           ///< one grain crossing one counter
@@ -24,6 +27,8 @@ struct TimeSeries {
   std::vector<std::vector<Vec3>> wall_force_n;         ///< [wall][sample] mean over the sampling interval
 };
 struct CaseResult {
+  bool complete = true;                                ///< false: stopped at RunOptions::until_s, before the end of the case
+  double end_time_s = 0;                               ///< of final_state
   double time_step_s = 0;
   std::int64_t steps = 0;
   std::vector<std::vector<CounterRecord>> records;     ///< [counter], in order of time, then id
@@ -46,8 +51,11 @@ struct RunOptions {
   std::filesystem::path checkpoint;                    ///< empty = none; exists = resume from it, bit for bit
   double checkpoint_every_wall_s = 30;
   bool keep_checkpoint = false;                        ///< the finished case leaves its last state there: run again, it returns the same result at once
+  double until_s = 0;                                  ///< > 0 and before the end of the case: stop there, leaving the checkpoint; going on from it
+                                                       ///< gives the bytes of a run that never stopped
   std::filesystem::path vtk_folder;
-  bool profile = false;
+  std::function<void(const RgbImage&, int frame, double time_s)> on_picture;   ///< gets the pictures that the case asks for
+  bool profile = false;                                ///< log the time per phase at the end
 };
 /// Runs the case to its end. Same case and seed: same bytes for any thread count, interrupted and resumed or not.
 /// Sources are served and the level looked at every 10 steps; grains outside the box are removed every 16 steps. Speeds above expected_max_speed_m_s give
@@ -57,5 +65,5 @@ struct RunOptions {
 CaseResult run_case(const Case& c, const RunOptions& options, Context& context);
 
 /// Results to and from HDF5 (base/h5), so that analysis can be repeated without the DEM.
-void write_case_result(const std::filesystem::path& file, const Case& c, const CaseResult& r);
+void write_case_result(const std::filesystem::path& file, const Case& c, const CaseResult& r, const CaseReport& report);
 }  // namespace venato::dem

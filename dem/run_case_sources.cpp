@@ -20,16 +20,6 @@ bool active(const std::vector<Interval>& when, double t) {
   return when.empty() || std::any_of(when.begin(), when.end(), [t](const Interval& i) { return t >= i.on_s && t < i.off_s; });
 }
 
-GrainInput grain_of(const GrainStream::Draw& d, const Vec3& position, const Vec3& velocity) {
-  GrainInput g;
-  g.position_m = position;
-  g.velocity_m_s = velocity;
-  g.radius_m = 0.5 * d.diameter_m;
-  g.species = d.species;
-  g.material = d.material;
-  return g;
-}
-
 /// Loose block: shelves. Grains stand in rows along x, rows side by side along y, layers on top of each other; a row is as wide and a layer as high
 /// as its largest grain. The places are as random as the sizes; the spare height of a layer jitters the rest.
 void fill_region(CaseRun& run, const Fill& fill, std::size_t index) {
@@ -151,6 +141,16 @@ void hand_over(CaseRun& run) {
 }
 }  // namespace
 
+GrainInput grain_of(const GrainStream::Draw& d, const Vec3& position, const Vec3& velocity) {
+  GrainInput g;
+  g.position_m = position;
+  g.velocity_m_s = velocity;
+  g.radius_m = 0.5 * d.diameter_m;
+  g.species = d.species;
+  g.material = d.material;
+  return g;
+}
+
 GrainStream::GrainStream(const Case& c, const std::vector<double>& fractions, std::uint64_t stream) : case_(&c), stream_(stream) {
   double sum = 0;
   for (std::size_t k = 0; k < c.powders.size(); ++k) {
@@ -197,7 +197,10 @@ void CaseRun::take_out(GrainId id, double& account) {
 }
 
 void fill_regions(CaseRun& run) {
-  for (std::size_t k = 0; k < run.c.fills.size(); ++k) fill_region(run, run.c.fills[k], k);
+  for (std::size_t k = 0; k < run.c.fills.size(); ++k) {
+    const Fill& fill = run.c.fills[k];
+    fill.solid_fraction > 0 ? fill_dense(run, fill, k) : fill_region(run, fill, k);
+  }
 }
 
 void rain_and_hand_over(CaseRun& run) {

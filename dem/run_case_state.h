@@ -61,6 +61,7 @@ struct CaseRun {
   std::int64_t samples = 0;
   std::vector<std::int64_t> frames;  ///< [plan]
   std::vector<double> vtk_times_s;
+  std::int64_t pictures = 0;  ///< taken so far
   std::optional<FieldRecorder> fields;
   std::int64_t field_frames = 0;
   std::int64_t delayed_hand_overs = 0;
@@ -70,7 +71,11 @@ struct CaseRun {
   void take_out(GrainId id, double& mass_account_kg);
 };
 
+// run_case_dense_fill.cpp
+/// \throws UsageError when the region is too small or its solid fraction cannot be reached.
+void fill_dense(CaseRun& run, const Fill& fill, std::size_t index);
 // run_case_sources.cpp
+GrainInput grain_of(const GrainStream::Draw& draw, const Vec3& position_m, const Vec3& velocity_m_s);
 void fill_regions(CaseRun& run);
 void rain_and_hand_over(CaseRun& run);
 // run_case_watch.cpp
@@ -87,4 +92,14 @@ void save_checkpoint(const CaseRun& run, const std::filesystem::path& file);
 void load_checkpoint(CaseRun& run, const std::filesystem::path& file);
 // run_case_vtk.cpp
 void write_vtk(CaseRun& run);
+/// Walls as they stand now, in triangles.
+struct WallTriangles {
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> wall;
+};
+WallTriangles present_walls(const CaseRun& run);
+/// Position wrapped back into the box: what one wants to look at.
+Vec3 in_box(const Box& box, Vec3 position);
+// run_case_picture.cpp
+void take_picture(CaseRun& run);
 }  // namespace venato::dem

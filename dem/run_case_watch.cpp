@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "dem/coarse_graining/openings.h"
 #include "dem/run_case_state.h"
 #include "dem/time_step.h"
 
@@ -127,6 +128,8 @@ void observe(CaseRun& run) {
   if (run.c.vtk_every_s > 0 && !run.options.vtk_folder.empty() &&
       now >= due_step(static_cast<double>(run.vtk_times_s.size()) * run.c.vtk_every_s, dt))
     write_vtk(run);
+  if (run.c.pictures.every_s > 0 && run.options.on_picture && now >= due_step(static_cast<double>(run.pictures) * run.c.pictures.every_s, dt))
+    take_picture(run);
 }
 
 void finish_result(CaseRun& run) {
@@ -134,6 +137,7 @@ void finish_result(CaseRun& run) {
   CaseResult& r = run.result;
   if (run.fields && run.fields->has_frames()) r.fields = std::make_shared<const FieldResult>(run.fields->finish());
   r.steps = run.sim.step_number();
+  r.end_time_s = run.sim.time_s();
   for (const GrainState& g : run.sim.grains()) {
     r.final_state.push_back({run.sim.time_s(), g.position_m, g.velocity_m_s, g.spin_rad_s, 2 * g.radius_m, g.species, g.id});
     r.mass_left_kg += g.mass_kg;
@@ -156,7 +160,8 @@ void finish_result(CaseRun& run) {
                   100 * s.max_overlap);
     r.warnings.emplace_back(line);
   }
-  if (!run.waiting.empty())
+  for (std::string& w : coarse_graining_warnings(run.c)) r.warnings.push_back(std::move(w));
+  if (r.complete && !run.waiting.empty())
     r.warnings.push_back(std::to_string(run.waiting.size()) + " handed-over grains never found room or were born after the end");
   for (std::size_t k = 0; k < run.c.rains.size(); ++k)
     if (r.rain_starved_kg[k] > 1e-3 * run.c.rains[k].mass_rate_kg_s * run.c.duration_s) {

@@ -8,10 +8,30 @@
 
 namespace venato::dem {
 
-void write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r) {
+CaseReport report_case(const Case& c, const CaseResult& r) {
+  CaseReport report;
+  report.kpis = case_kpis(c, r);
+  if (!c.rig || !r.complete) return report;
+  RigResult rig = c.rig->measure(c, r);
+  report.kpis.insert(report.kpis.end(), rig.kpis.begin(), rig.kpis.end());
+  report.plots = std::move(rig.plots);
+  report.tables = std::move(rig.tables);
+  report.warnings = std::move(rig.warnings);
+  return report;
+}
+
+CaseReport write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r) {
+  CaseReport report = report_case(c, r);
+  write_case_outputs(folder, c, r, report);
+  return report;
+}
+
+void write_case_outputs(const std::filesystem::path& folder, const Case& c, const CaseResult& r, const CaseReport& report) {
   make_output_folder(folder);
-  write_case_result(folder / "result.h5", c, r);
-  write_text_atomically(folder / "kpi.csv", kpi_csv(case_kpis(c, r)));
+  write_case_result(folder / "result.h5", c, r, report);
+  write_text_atomically(folder / "kpi.csv", kpi_csv(report.kpis));
+  for (const RigTable& table : report.tables) write_text_atomically(folder / (table.name + ".csv"), table_csv(table));
+  for (const RigPlot& plot : report.plots) write_text_atomically(folder / (plot.name + ".svg"), svg_plot(plot.plot));
   write_text_atomically(folder / "series.csv", series_csv(c, r.series));
   for (std::size_t k = 0; k < r.records.size(); ++k)
     write_text_atomically(folder / ("counter_" + counter_label(c, k) + ".csv"), counter_csv(c, r.records[k]));

@@ -29,7 +29,7 @@ constexpr double kMm = 1e3, kUm = 1e6, kUg = 1e9, kG = 1e3, kUj = 1e6;
 }  // namespace
 
 std::string kpi_csv(const std::vector<Kpi>& kpis) {
-  std::string text = "name,value,standard_error,unit,description\n";
+  std::string text = "name,value,standard_error,unit,description,error_from\n";
   for (const Kpi& k : kpis) {
     text += k.name;
     append(text, k.value);
@@ -37,7 +37,44 @@ std::string kpi_csv(const std::vector<Kpi>& kpis) {
     append(text, k.unit);
     text += ",\"";
     text += k.description;
-    text += "\"\n";
+    text += "\"";
+    append(text, k.error_from);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string table_csv(const RigTable& table) {
+  std::string text;
+  for (const RigTable::Column& column : table.columns) {
+    if (!text.empty()) text += ',';
+    text += column.name;
+  }
+  text += '\n';
+  const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      if (k > 0) text += ',';
+      text += number(table.columns[k].values[i]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string kpi_text(const std::vector<Kpi>& kpis) {
+  std::string text;
+  for (const Kpi& k : kpis) {
+    char line[256];
+    if (std::isnan(k.value))
+      std::snprintf(line, sizeof line, "%-36s not known", k.name.c_str());
+    else if (std::isnan(k.standard_error))
+      std::snprintf(line, sizeof line, "%-36s %.6g %s", k.name.c_str(), k.value, k.unit.c_str());
+    else
+      std::snprintf(line, sizeof line, "%-36s %.5g +- %.2g %s  (%s)", k.name.c_str(), k.value, k.standard_error, k.unit.c_str(),
+                    k.error_from.empty() ? "standard error" : k.error_from.c_str());
+    text += line;
+    text += '\n';
   }
   return text;
 }

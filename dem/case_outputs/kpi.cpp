@@ -27,7 +27,7 @@ void add_counter(std::vector<Kpi>& kpis, const Case& c, std::size_t k, const std
   kpis.push_back({name + ".grains", static_cast<double>(records.size()), kNan, "1", "grains that crossed"});
   kpis.push_back({name + ".mass_g", mass * kGrams, kNan, "g", "their mass"});
   kpis.push_back({name + ".mass_flow_g_s", flow.mean_kg_s * kGrams, flow.standard_error_kg_s * kGrams, "g/s",
-                  "flow while 10 % to 90 % of the mass crossed; standard error of 8 blocks"});
+                  "flow while 10 % to 90 % of the mass crossed", "8 time blocks"});
   kpis.push_back({name + ".flow_from_s", flow.from_s, kNan, "s", "start of that window"});
   kpis.push_back({name + ".flow_to_s", flow.to_s, kNan, "s", "end of that window"});
   kpis.push_back({name + ".mean_time_s", mass > 0 ? time / mass : kNan, kNan, "s", "mean time of crossing, by mass"});

@@ -92,7 +92,7 @@ void CellGrid::shape_level(Level& level, std::span<const Sphere> spheres, std::s
   }
 }
 
-std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const PeriodicBox& box, double margin, int threads) {
+std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const PeriodicBox& box, int threads) {
   const std::size_t n = spheres.size();
   std::vector<std::int32_t> order(n);
   levels_.clear();
@@ -112,16 +112,16 @@ std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const
     Level& level = levels_.emplace_back();
     for (const std::int32_t k : group) level.r_max = std::max(level.r_max, spheres[static_cast<std::size_t>(k)].r);
     level.first_slot = first;
-    shape_level(level, spheres, group, box, 2 * level.r_max + margin);
-    const std::int64_t nx = level.axis[0].count, ny = level.axis[1].count;
+    shape_level(level, spheres, group, box, 2 * level.r_max);
+    for (int a = 0; a < 3; ++a) level.bricks[a] = (level.axis[a].count + kBrick - 1) / kBrick;
     const std::int64_t m = static_cast<std::int64_t>(group.size());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && m > 4096)
     for (std::int64_t q = 0; q < m; ++q) {
       const Sphere& s = spheres[static_cast<std::size_t>(group[static_cast<std::size_t>(q)])];
       cell[static_cast<std::size_t>(q)] =
-          static_cast<std::int32_t>((level.axis[2].cell_of(s.z) * ny + level.axis[1].cell_of(s.y)) * nx + level.axis[0].cell_of(s.x));
+          static_cast<std::int32_t>(level.cell(level.axis[0].cell_of(s.x), level.axis[1].cell_of(s.y), level.axis[2].cell_of(s.z)));
     }
-    level.start.assign(static_cast<std::size_t>(nx * ny * level.axis[2].count) + 1, 0);
+    level.start.assign(static_cast<std::size_t>(level.cells()) + 1, 0);
     for (std::size_t q = 0; q < group.size(); ++q) ++level.start[static_cast<std::size_t>(cell[q]) + 1];
     for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
     std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);

@@ -1,7 +1,8 @@
 #pragma once
-/// Cell grid over the grains, one level per factor of two in radius, so that small grains never search through cells made for big ones.
-/// Grains are put in order (level, cell): a row of cells is one contiguous run of grains. Cost does not depend on empty space: the grid
-/// spans the occupied extent, and where that is mostly empty its axes are compressed to the occupied slabs.
+/// Cell grid over spheres, one level per factor of two in radius, so that small grains never search through cells made for big ones.
+/// Grains are put in order (level, brick of 4 x 4 x 4 cells, cell): neighbours in space are neighbours in memory. Cost does not depend on empty
+/// space: the grid spans the occupied extent, and where that is mostly empty its axes are compressed to the occupied slabs.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,12 +27,11 @@ struct PeriodicBox {
 
 class CellGrid {
  public:
-  /// \param spheres wrapped into the box in periodic directions
-  /// \param cutoff_margin [m] skin of the list
+  /// \param spheres wrapped into the box in periodic directions; r is the reach of the search, not always the grain's radius
   /// \return order: new slot k holds old slot order[k]
-  std::vector<std::int32_t> build(std::span<const Sphere> spheres, const PeriodicBox& box, double cutoff_margin, int threads);
+  std::vector<std::int32_t> build(std::span<const Sphere> spheres, const PeriodicBox& box, int threads);
 
-  /// Calls visit(first_slot, last_slot) for runs of slots that hold every grain j with |x_j - p| < reach_extra + r_j (and more, once each).
+  /// Calls visit(first_slot, last_slot) for runs of slots that hold every sphere j with |x_j - p| < reach_extra + r_j (and more, once each).
   template <class Visit>
   void for_runs_near(double x, double y, double z, double reach_extra, const Visit& visit) const;
 
@@ -52,9 +52,16 @@ class CellGrid {
     std::int64_t cell_of(double v) const;
     void range(double low, double high, std::int64_t& first, std::int64_t& last) const;
   };
+  static constexpr std::int64_t kBrick = 4;  ///< cells
   struct Level {
     double r_max = 0;
     Axis axis[3];
+    std::int64_t bricks[3] = {0, 0, 0};
+    std::int64_t cells() const { return bricks[0] * bricks[1] * bricks[2] * kBrick * kBrick * kBrick; }
+    std::int64_t cell(std::int64_t x, std::int64_t y, std::int64_t z) const {
+      const std::int64_t brick = ((z / kBrick) * bricks[1] + y / kBrick) * bricks[0] + x / kBrick;
+      return ((brick * kBrick + z % kBrick) * kBrick + y % kBrick) * kBrick + x % kBrick;
+    }
     std::int32_t first_slot = 0;
     std::vector<std::int32_t> start;  ///< [cell + 1], relative to first_slot
   };
@@ -76,12 +83,17 @@ void CellGrid::for_runs_near(double x, double y, double z, double reach_extra, c
     if (!any) continue;
     const std::int64_t nx = level.axis[0].count, ny = level.axis[1].count, nz = level.axis[2].count;
     for (std::int64_t kz = lo[2]; kz <= hi[2]; ++kz) {
-      const std::int64_t z_row = (kz < 0 ? kz + nz : (kz >= nz ? kz - nz : kz)) * ny;
+      const std::int64_t cz = kz < 0 ? kz + nz : (kz >= nz ? kz - nz : kz);
       for (std::int64_t ky = lo[1]; ky <= hi[1]; ++ky) {
-        const std::int64_t row = (z_row + (ky < 0 ? ky + ny : (ky >= ny ? ky - ny : ky))) * nx;
+        const std::int64_t cy = ky < 0 ? ky + ny : (ky >= ny ? ky - ny : ky);
         auto run = [&](std::int64_t from, std::int64_t to) {
-          const std::int32_t first = level.start[static_cast<std::size_t>(row + from)], last = level.start[static_cast<std::size_t>(row + to + 1)];
-          if (first < last) visit(level.first_slot + first, level.first_slot + last);
+          while (from <= to) {  // brick by brick
+            const std::int64_t end = std::min(to, from | (kBrick - 1));
+            const std::size_t c = static_cast<std::size_t>(level.cell(from, cy, cz));
+            const std::int32_t first = level.start[c], last = level.start[c + static_cast<std::size_t>(end - from) + 1];
+            if (first < last) visit(level.first_slot + first, level.first_slot + last);
+            from = end + 1;
+          }
         };
         if (lo[0] < 0) {
           run(lo[0] + nx, nx - 1);

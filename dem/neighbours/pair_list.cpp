@@ -1,157 +1,191 @@
 #include "dem/neighbours/pair_list.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace venato::dem {
 namespace {
-constexpr std::int64_t kBlock = 256;
-struct Neighbour {
-  std::int64_t id;
-  std::int32_t slot, image;
-};
-
-/// Full rows (partners below and above) of a block of grains, one after the other.
-struct BlockRows {
-  std::vector<Neighbour> row;
-  std::vector<std::int32_t> end;
-};
-
-/// Image of j nearest to i; unique because the box is at least two cutoffs long.
-inline std::int32_t nearest_image(double d[3], const PeriodicBox& box) {
-  std::int32_t code = 0, weight = 1;
-  for (std::size_t a = 0; a < 3; ++a, weight *= 3) {
-    std::int32_t step = 1;
-    if (box.length[a] > 0) {
-      if (d[a] > 0.5 * box.length[a])
-        d[a] -= box.length[a], step = 0;
-      else if (d[a] < -0.5 * box.length[a])
-        d[a] += box.length[a], step = 2;
-    }
-    code += step * weight;
-  }
-  return code;
-}
-
-void find_row(const PairListInput& in, std::int32_t i, std::vector<Neighbour>& out) {
-  const Sphere& s = in.spheres[static_cast<std::size_t>(i)];
-  auto test = [&](std::int32_t from, std::int32_t to) {
-    for (std::int32_t j = from; j < to; ++j) {
-      if (j == i) continue;
-      const Sphere& t = in.spheres[static_cast<std::size_t>(j)];
-      double d[3] = {t.x - s.x, t.y - s.y, t.z - s.z};
-      const std::int32_t image = nearest_image(d, in.box);
-      const double reach = s.r + t.r + in.skin;
-      if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach * reach) out.push_back({in.id[static_cast<std::size_t>(j)], j, image});
-    }
-  };
-  const std::size_t begin = out.size();
-  if (in.grid)
-    in.grid->for_runs_near(s.x, s.y, s.z, s.r + in.skin, test);
-  else
-    test(0, static_cast<std::int32_t>(in.spheres.size()));
-  // Insertion sort: a dozen entries, nearly in order.
-  for (std::size_t k = begin + 1; k < out.size(); ++k) {
-    const Neighbour n = out[k];
-    std::size_t q = k;
-    for (; q > begin && out[q - 1].id > n.id; --q) out[q] = out[q - 1];
-    out[q] = n;
-  }
-}
+constexpr double kRounding = 1 + 1e-9;  // of the reach: rounding of the paths never hides a pair
+constexpr std::uint32_t kSecond = 0x80000000u;
 }  // namespace
 
-std::vector<Trio> image_shifts(const PeriodicBox& box) {
-  std::vector<Trio> shift;
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x) shift.push_back({x * box.length[0], y * box.length[1], z * box.length[2]});
-  return shift;
+void PairList::resize(std::size_t pairs, std::size_t entries) {
+  own.resize_for_overwrite(pairs + kListPadding);
+  std::fill_n(own.data() + pairs, kListPadding, std::uint16_t{0});
+  partner.resize_for_overwrite(pairs + kListPadding);
+  std::fill_n(partner.data() + pairs, kListPadding, 0);
+  touching.resize_for_overwrite(pairs + kListPadding);
+  std::memset(touching.data(), 0, pairs + kListPadding);
+  place.resize_for_overwrite(pairs);
+  row.resize_for_overwrite(entries);
 }
 
-void rebuild_pairs(PairList& list, PairList& spare, const PairListInput& in) {
-  const std::int64_t n = static_cast<std::int64_t>(in.spheres.size()), blocks = (n + kBlock - 1) / kBlock;
-  std::swap(list, spare);
-  const PairList& old = spare;
-  std::vector<BlockRows> rows(static_cast<std::size_t>(blocks));
-  list.first.assign(static_cast<std::size_t>(n) + 1, 0);
-  list.incident_first.assign(static_cast<std::size_t>(n) + 1, 0);
-  const int threads = in.threads;
+void PairList::start(std::size_t block, std::size_t pair, const ContactHistory& h) {
+  place[pair] = contacts[block].take();
+  history_of(block, pair) = h;
+  touching[pair] = 1;
+  contacts[block].sides += sides(block, pair);
+}
+void PairList::end(std::size_t block, std::size_t pair) {
+  contacts[block].vacant.push_back(place[pair]);
+  touching[pair] = 0;
+  contacts[block].sides -= sides(block, pair);
+}
 
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-  for (std::int64_t b = 0; b < blocks; ++b) {
-    BlockRows& out = rows[static_cast<std::size_t>(b)];
-    out.row.reserve(static_cast<std::size_t>(kBlock) * 14);
-    for (std::int64_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) {
-      const std::size_t begin = out.row.size(), s = static_cast<std::size_t>(i);
-      find_row(in, static_cast<std::int32_t>(i), out.row);
-      out.end.push_back(static_cast<std::int32_t>(out.row.size()));
-      std::int32_t own = 0;
-      for (std::size_t k = begin; k < out.row.size(); ++k) own += out.row[k].id > in.id[s];
-      list.first[s + 1] = own;
-      list.incident_first[s + 1] = static_cast<std::int32_t>(out.row.size() - begin);
+void PairListBuilder::find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search) {
+  const std::size_t si = static_cast<std::size_t>(i);
+  const Sphere s = in.spheres[si];
+  const Anchor& a = in.anchor[si];
+  const double grown = s.r + static_cast<double>(a.allowance);
+  search.runs.clear(), search.row.clear();
+  std::size_t most = 0;
+  auto take = [&](std::int32_t from, std::int32_t to) { search.runs.emplace_back(from, to), most += static_cast<std::size_t>(to - from); };
+  std::size_t found = 0;
+  if (in.grid) {
+    in.grid->for_runs_near(s.x, s.y, s.z, in.reach[si], take);
+    if (search.near.size() < most + 16) search.near.resize(most + 16);
+    found = near_scan(field, i, search.runs, search.near.data());
+  } else {  // the slow obvious way, for tests: everybody, exactly
+    search.near.resize(in.spheres.size());
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(in.spheres.size()); ++j)
+      if (j != i) search.near[found++] = j;
+  }
+  for (std::size_t k = 0; k < found; ++k) {
+    const std::size_t sj = static_cast<std::size_t>(search.near[k]);
+    const Sphere& t = in.spheres[sj];
+    double d[3] = {t.x - s.x, t.y - s.y, t.z - s.z};
+    for (std::size_t c = 0; c < 3; ++c)  // wrapped already: at most one box length off
+      if (in.box.length[c] > 0) d[c] -= d[c] > 0.5 * in.box.length[c] ? in.box.length[c] : (d[c] < -0.5 * in.box.length[c] ? -in.box.length[c] : 0);
+    const Anchor& b = in.anchor[sj];
+    if (meet_within(d[0], d[1], d[2], static_cast<double>(b.drift_x) - static_cast<double>(a.drift_x),
+                    static_cast<double>(b.drift_y) - static_cast<double>(a.drift_y), static_cast<double>(b.drift_z) - static_cast<double>(a.drift_z),
+                    kRounding * (grown + (t.r + static_cast<double>(b.allowance))), in.life_s))
+      search.row.emplace_back(in.id[sj], search.near[k]);
+  }
+  // Insertion sort: a dozen entries.
+  for (std::size_t k = 1; k < search.row.size(); ++k) {
+    const auto n = search.row[k];
+    std::size_t q = k;
+    for (; q > 0 && search.row[q - 1].first > n.first; --q) search.row[q] = search.row[q - 1];
+    search.row[q] = n;
+  }
+}
+
+/// Pairs of a block in the order of (lower id, higher id), with the rows' entries for their first grains. A grain's pairs with higher ids are one run
+/// of its row; pairs with a grain of another block that has the lower id come singly.
+void PairListBuilder::order_pairs(PairList& list, const PairListInput& in, std::size_t block) const {
+  const BlockRows& rows = rows_[block];
+  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
+  struct Run {
+    std::int64_t lower, higher;     // ids; higher is the first of the run
+    std::uint32_t grain, from, to;  // entries of the grain's row
+  };
+  std::vector<Run> runs;
+  runs.reserve(3 * static_cast<std::size_t>(kGrainsPerBlock));
+  for (std::size_t s = start; s < end; ++s) {
+    const std::span<const std::int32_t> row = rows.of(s - start);
+    auto id = [&](std::uint32_t k) { return in.id[static_cast<std::size_t>(row[k])]; };
+    std::uint32_t k = 0;
+    for (; k < row.size() && id(k) < in.id[s]; ++k) {
+      const std::size_t other = static_cast<std::size_t>(row[k]);
+      if (other < start || other >= end) runs.push_back({id(k), in.id[s], static_cast<std::uint32_t>(s - start), k, k + 1});
+    }
+    if (k < row.size()) runs.push_back({in.id[s], id(k), static_cast<std::uint32_t>(s - start), k, static_cast<std::uint32_t>(row.size())});
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.lower != b.lower ? a.lower < b.lower : a.higher < b.higher; });
+  const std::size_t first = static_cast<std::size_t>(list.block_first[block]);
+  std::size_t p = first;
+  for (const Run& r : runs) {
+    const std::span<const std::int32_t> row = rows.of(r.grain);
+    for (std::uint32_t k = r.from; k < r.to; ++k, ++p) {
+      list.own[p] = static_cast<std::uint16_t>(r.grain);
+      list.partner[p] = row[k];
+      list.row[static_cast<std::size_t>(list.row_first[start + r.grain]) + k].code = static_cast<std::uint32_t>(p - first);
     }
   }
-  for (std::size_t k = 1; k < list.first.size(); ++k) {
-    list.first[k] += list.first[k - 1];
-    list.incident_first[k] += list.incident_first[k - 1];
+}
+
+/// Pairs and rows of a block, then what the old list knows of their contacts.
+void PairListBuilder::fill_block(PairList& list, const PairList& old, const PairListInput& in, std::size_t block) const {
+  const BlockRows& rows = rows_[block];
+  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
+  auto inside = [&](std::int32_t slot) { return static_cast<std::size_t>(slot) >= start && static_cast<std::size_t>(slot) < end; };
+  order_pairs(list, in, block);
+  for (std::size_t s = start; s < end; ++s) {
+    std::size_t e = static_cast<std::size_t>(list.row_first[s]);
+    for (const std::int32_t slot : rows.of(s - start)) {
+      const std::size_t other = static_cast<std::size_t>(slot);
+      if (inside(slot) && in.id[other] < in.id[s]) {  // the pair stands with its other grain
+        const std::span<const std::int32_t> theirs = rows.of(other - start);
+        const auto found = std::find(theirs.begin(), theirs.end(), static_cast<std::int32_t>(s));
+        list.row[e].code = list.row[static_cast<std::size_t>(list.row_first[other] + (found - theirs.begin()))].code | kSecond;
+      }
+      ++e;
+    }
   }
-  const std::size_t pairs = static_cast<std::size_t>(list.first.back());
-  list.pair.resize(pairs);
-  list.partner.resize(pairs);
-  list.touching.assign(pairs, 0);
-  list.history.resize_for_overwrite(pairs);
-  list.force.resize_for_overwrite(pairs);
-  list.incident.resize(static_cast<std::size_t>(list.incident_first.back()));
-  const std::int32_t old_count = static_cast<std::int32_t>(old.grain_count());
+  list.contacts[block] = BlockContacts();
+  for (std::size_t s = start; s < end; ++s) carry(list, old, in, block, s);
+}
+
+void PairListBuilder::carry(PairList& list, const PairList& old, const PairListInput& in, std::size_t block, std::size_t s) const {
+  const std::size_t was = static_cast<std::size_t>(in.old_slot[s]);
+  if (was >= old.grain_count()) return;
+  std::size_t from = static_cast<std::size_t>(old.row_first[was]);
+  const std::size_t from_end = static_cast<std::size_t>(old.row_first[was + 1]), e0 = static_cast<std::size_t>(list.row_first[s]);
+  const std::span<const std::int32_t> row = rows_[block].of(s - PairList::block_start(block));
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (list.row[e0 + k].second()) continue;
+    const std::int64_t id = in.id[static_cast<std::size_t>(row[k])];
+    for (; from < from_end; ++from)
+      if (old.touching[old.pair_of(was, old.row[from])] && old.id[old.other(was, old.row[from])] >= id) break;
+    if (from == from_end) return;
+    if (old.id[old.other(was, old.row[from])] != id) continue;
+    const ContactHistory& h = old.history_of(PairList::block_of(was), old.pair_of(was, old.row[from]));
+    list.start(block, static_cast<std::size_t>(list.block_first[block]) + list.row[e0 + k].pair(), old.row[from].second() ? mirrored(h) : h);
+  }
+}
+
+void PairListBuilder::rebuild(PairList& list, const PairListInput& in) {
+  const std::int64_t n = static_cast<std::int64_t>(in.spheres.size()), blocks = (n + kGrainsPerBlock - 1) / kGrainsPerBlock;
+  const PairList old = std::exchange(list, PairList());
+  rows_.resize(static_cast<std::size_t>(blocks));
+  list.row_first.assign(static_cast<std::size_t>(n) + 1, 0);
+  list.block_first.assign(static_cast<std::size_t>(blocks) + 1, 0);
+  list.contacts.resize(static_cast<std::size_t>(blocks));
+  list.id.resize_for_overwrite(static_cast<std::size_t>(n));
+  std::copy(in.id.begin(), in.id.end(), list.id.data());
+  const int threads = in.threads;
+  const NearField field = make_near_field(in.spheres, in.reach, in.box, threads);
 
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
+    Search search;
 #pragma omp for schedule(dynamic, 1)
     for (std::int64_t b = 0; b < blocks; ++b) {
-      const BlockRows& in_rows = rows[static_cast<std::size_t>(b)];
-      std::size_t k = 0;
-      for (std::int64_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) {
-        const std::size_t s = static_cast<std::size_t>(i), end = static_cast<std::size_t>(in_rows.end[s - static_cast<std::size_t>(b * kBlock)]);
-        const std::int32_t was = in.old_slot[s];
-        std::size_t from = 0, from_end = 0;
-        if (was < old_count)
-          from = static_cast<std::size_t>(old.first[static_cast<std::size_t>(was)]),
-          from_end = static_cast<std::size_t>(old.first[static_cast<std::size_t>(was) + 1]);
-        std::size_t p = static_cast<std::size_t>(list.first[s]);
-        for (; k < end; ++k) {
-          const Neighbour& q = in_rows.row[k];
-          if (q.id < in.id[s]) continue;
-          list.pair[p] = {q.slot, q.image};
-          list.partner[p] = q.id;
-          while (from < from_end && old.partner[from] < q.id) ++from;
-          if (from < from_end && old.partner[from] == q.id && old.touching[from]) {
-            list.touching[p] = 1;
-            list.history[p] = old.history[from];
-            list.force[p] = old.force[from];
-          }
-          ++p;
+      BlockRows& out = rows_[static_cast<std::size_t>(b)];
+      out.row.clear(), out.end.clear();
+      std::int32_t pairs = 0;
+      const std::int64_t start = b * kGrainsPerBlock, end = std::min(n, start + kGrainsPerBlock);
+      for (std::int64_t i = start; i < end; ++i) {
+        const std::size_t s = static_cast<std::size_t>(i);
+        find_row(in, field, static_cast<std::int32_t>(i), search);
+        for (const auto& [id, slot] : search.row) {
+          pairs += slot < start || slot >= end || id > in.id[s];
+          out.row.push_back(slot);
         }
+        out.end.push_back(static_cast<std::int32_t>(out.row.size()));
+        list.row_first[s + 1] = static_cast<std::int32_t>(search.row.size());
       }
-    }
-#pragma omp for schedule(dynamic, 1)
-    for (std::int64_t b = 0; b < blocks; ++b) {
-      const BlockRows& in_rows = rows[static_cast<std::size_t>(b)];
-      std::size_t k = 0;
-      for (std::int64_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) {
-        const std::size_t s = static_cast<std::size_t>(i), end = static_cast<std::size_t>(in_rows.end[s - static_cast<std::size_t>(b * kBlock)]);
-        std::uint32_t own = static_cast<std::uint32_t>(list.first[s]);
-        for (std::size_t at = static_cast<std::size_t>(list.incident_first[s]); k < end; ++k, ++at) {
-          const Neighbour& q = in_rows.row[k];
-          if (q.id > in.id[s]) {
-            list.incident[at] = 2 * own++;
-          } else {  // the pair stands in the partner's row
-            const auto row = list.partner.begin() + list.first[static_cast<std::size_t>(q.slot)],
-                       row_end = list.partner.begin() + list.first[static_cast<std::size_t>(q.slot) + 1];
-            const auto found = std::lower_bound(row, row_end, in.id[s]);
-            list.incident[at] = 2 * static_cast<std::uint32_t>(found - list.partner.begin()) + 1;
-          }
-        }
-      }
+      list.block_first[static_cast<std::size_t>(b) + 1] = pairs;
     }
   }
+  for (std::size_t k = 1; k < list.row_first.size(); ++k) list.row_first[k] += list.row_first[k - 1];
+  for (std::size_t k = 1; k < list.block_first.size(); ++k) list.block_first[k] += list.block_first[k - 1];
+  list.resize(list.pair_count(), static_cast<std::size_t>(list.row_first.back()));
+
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
+  for (std::int64_t b = 0; b < blocks; ++b) fill_block(list, old, in, static_cast<std::size_t>(b));
 }
 }  // namespace venato::dem

@@ -1,68 +1,140 @@
 #pragma once
-/// Verlet list with the contact histories. Every pair is owned by the grain with the lower id; rows stand in the spatial order of their owners and
-/// are sorted by the partner's id inside, so histories are carried from the old list to the new one by merging sorted rows.
+/// Neighbour lists by blocks of grains, with the contact histories.
+///
+/// A block (256 grains that are neighbours in space) holds every pair that one of its grains is in. A pair inside the block stands there once; a pair
+/// with a grain of another block stands in both, each with its own copy of the history (mirror images: the contact laws are exactly antisymmetric).
+/// So a block computes the forces on its grains from nothing but positions and velocities of its surroundings, no force ever goes through memory,
+/// and only the pairs across block borders (about a quarter) are computed twice.
+///
+/// The pairs of a block stand in the order of their ids (the lower, then the higher). Adding up forces in this order gives every grain its contacts
+/// in ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Each grain
+/// also has a row of its pairs, sorted by the partner's id, by which histories go from the old list to the new one. Histories are kept for touching
+/// pairs only, densely from the start of the block's part of `history`.
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "dem/contact/kernels/contact_types.h"
 #include "dem/neighbours/cell_grid.h"
+#include "dem/neighbours/near_scan.h"
+#include "dem/neighbours/raw_array.h"
+#include "dem/neighbours/reach_plan.h"
 
 namespace venato::dem {
 
-/// Array without initialisation: histories are written when a contact starts, never before.
-template <class T>
-class RawArray {
- public:
-  void resize_for_overwrite(std::size_t n) {
-    if (n > capacity_) data_ = std::make_unique_for_overwrite<T[]>(capacity_ = n + n / 8);
-    size_ = n;
+inline constexpr std::int64_t kGrainsPerBlock = 256;
+
+/// Vector loads may read this many entries beyond the end of a list.
+inline constexpr std::size_t kListPadding = 8;
+
+struct Load {
+  Trio force, torque;
+};
+
+/// Force (0-2) and torque (3-5) on a grain, padded with zeros to the shape of a Motion.
+struct alignas(64) LoadRow {
+  double v[8] = {};
+  Load load() const { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
+};
+/// Entry of a row: the pair, counted from the block's first, and whether the grain is its second one.
+struct RowEntry {
+  std::uint32_t code;
+  std::uint32_t pair() const { return code & 0x7fffffffu; }
+  bool second() const { return code >> 31 != 0; }
+};
+
+/// History seen from the other grain.
+inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, h.contact_radius, -h.rolling, h.plastic}; }
+
+/// Touching pairs of one block.
+struct BlockContacts {
+  RawArray<ContactHistory> history;   ///< [place]
+  RawArray<LoadRow> kept;             ///< [place] force on the pair's first grain, when it was asked for
+  std::uint32_t used = 0;             ///< places taken so far; all below are in use or in `vacant`
+  std::vector<std::uint32_t> vacant;
+  std::int64_t sides = 0;             ///< touching grains of the block, once for each contact
+  std::uint32_t take() {
+    if (vacant.empty()) {
+      if (used == history.size()) history.grow(used + used / 4 + 16);
+      return used++;
+    }
+    const std::uint32_t k = vacant.back();
+    vacant.pop_back();
+    return k;
   }
-  std::size_t size() const { return size_; }
-  T* data() { return data_.get(); }
-  T& operator[](std::size_t k) { return data_[k]; }
-  const T& operator[](std::size_t k) const { return data_[k]; }
-
- private:
-  std::unique_ptr<T[]> data_;
-  std::size_t size_ = 0, capacity_ = 0;
 };
-
-struct Pair {
-  std::int32_t j;      ///< slot of the partner (higher id)
-  std::int32_t image;  ///< periodic image, index into image_shifts()
-};
-/// Force and torques of one pair on its grains; phase 2 sums them.
-struct PairForce {
-  Trio on_i, torque_i, torque_j;
-};
-
-inline constexpr std::int32_t kNoImage = 13;
-/// Shift added to x_j - x_i for each of the 27 images.
-std::vector<Trio> image_shifts(const PeriodicBox& box);
 
 struct PairList {
-  std::vector<std::int32_t> first;  ///< [slot + 1] own pairs of each grain
-  std::vector<Pair> pair;
-  std::vector<std::int64_t> partner;         ///< [pair] id of the partner
-  std::vector<std::uint8_t> touching;        ///< [pair]
-  RawArray<ContactHistory> history;          ///< [pair] defined while touching
-  RawArray<PairForce> force;                 ///< [pair] defined while touching
-  std::vector<std::int32_t> incident_first;  ///< [slot + 1]
-  std::vector<std::uint32_t> incident;       ///< all pairs of a grain by ascending partner id: 2 * pair + (grain is the partner)
-  std::size_t grain_count() const { return first.empty() ? 0 : first.size() - 1; }
+  std::vector<std::int32_t> block_first;  ///< [block + 1] pairs of each block; also where its part of `history` starts
+  RawArray<std::uint16_t> own;            ///< [pair + padding] first grain, counted from the block's first
+  RawArray<std::int32_t> partner;         ///< [pair + padding] slot of the second grain
+  RawArray<std::uint8_t> touching;        ///< [pair + padding] 1 or 0
+  RawArray<std::uint32_t> place;          ///< [pair] of the history in the block's part, while touching
+  RawArray<ContactHistory> history;       ///< [block_first + place]
+  std::vector<BlockContacts> contacts;    ///< [block]
+  std::vector<std::int32_t> row_first;    ///< [slot + 1]
+  RawArray<RowEntry> row;                 ///< [entry] by ascending id of the partner
+  RawArray<std::int64_t> id;              ///< [slot]
+
+  std::size_t grain_count() const { return row_first.empty() ? 0 : row_first.size() - 1; }
+  std::size_t pair_count() const { return block_first.empty() ? 0 : static_cast<std::size_t>(block_first.back()); }
+  static std::size_t block_of(std::size_t slot) { return slot / static_cast<std::size_t>(kGrainsPerBlock); }
+  static std::size_t block_start(std::size_t block) { return block * static_cast<std::size_t>(kGrainsPerBlock); }
+  std::size_t pair_of(std::size_t slot, RowEntry e) const { return static_cast<std::size_t>(block_first[block_of(slot)]) + e.pair(); }
+  /// Slot of the other grain of a row's entry.
+  std::size_t other(std::size_t slot, RowEntry e) const {
+    const std::size_t p = pair_of(slot, e);
+    return e.second() ? block_start(block_of(slot)) + own[p] : static_cast<std::size_t>(partner[p]);
+  }
+  ContactHistory& history_of(std::size_t block, std::size_t pair) { return contacts[block].history[place[pair]]; }
+  const ContactHistory& history_of(std::size_t block, std::size_t pair) const { return contacts[block].history[place[pair]]; }
+  /// Starts (with this history) or ends a contact: marks the pair, takes or frees a place.
+  void start(std::size_t block, std::size_t pair, const ContactHistory& h);
+  void end(std::size_t block, std::size_t pair);
+  void resize(std::size_t pairs, std::size_t entries);
+
+ private:
+  int sides(std::size_t block, std::size_t pair) const { return block_of(static_cast<std::size_t>(partner[pair])) == block ? 2 : 1; }
 };
 
 struct PairListInput {
-  std::span<const Sphere> spheres;         ///< new slot order
-  std::span<const std::int64_t> id;        ///< new slot order
+  std::span<const Sphere> spheres;  ///< new slot order, as all below
+  std::span<const Anchor> anchor;
+  std::span<const double> reach;
+  double life_s;
+  std::span<const std::int64_t> id;
   std::span<const std::int32_t> old_slot;  ///< [new slot] slot in the old list; >= old.grain_count() = new grain
   const CellGrid* grid;                    ///< null = brute force
   PeriodicBox box;
-  double skin;
   int threads;
 };
-/// Rebuilds `list`; histories and forces of touching pairs that are still near are carried over. `spare` takes the old list and lends its memory.
-void rebuild_pairs(PairList& list, PairList& spare, const PairListInput& in);
+
+/// Makes lists.
+class PairListBuilder {
+ public:
+  /// Rebuilds `list`; histories of touching pairs that are still near are carried over.
+  void rebuild(PairList& list, const PairListInput& in);
+
+ private:
+  /// Rows of a block of grains, one after the other: slots of the partners by ascending id.
+  struct BlockRows {
+    std::vector<std::int32_t> row;
+    std::vector<std::int32_t> end;
+    std::span<const std::int32_t> of(std::size_t k) const {
+      const std::size_t begin = k == 0 ? 0 : static_cast<std::size_t>(end[k - 1]);
+      return {row.data() + begin, static_cast<std::size_t>(end[k]) - begin};
+    }
+  };
+  struct Search {  ///< working memory of one thread
+    std::vector<std::pair<std::int32_t, std::int32_t>> runs;
+    std::vector<std::int32_t> near;
+    std::vector<std::pair<std::int64_t, std::int32_t>> row;  ///< (id, slot)
+  };
+  static void find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search);
+  void fill_block(PairList& list, const PairList& old, const PairListInput& in, std::size_t block) const;
+  void order_pairs(PairList& list, const PairListInput& in, std::size_t block) const;
+  void carry(PairList& list, const PairList& old, const PairListInput& in, std::size_t block, std::size_t slot) const;
+
+  std::vector<BlockRows> rows_;
+};
 }  // namespace venato::dem

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "dem/neighbours/raw_array.h"
 
 namespace venato::dem {
 
@@ -21,6 +22,11 @@ class ByteWriter {
   template <class T>
   void list(const std::vector<T>& v) {
     static_assert(std::is_trivially_destructible_v<T>);  // plain data; Eigen's fixed sizes are, though not formally trivially copyable
+    value(static_cast<std::uint64_t>(v.size()));
+    append(v.data(), v.size() * sizeof(T));
+  }
+  template <class T>
+  void raw(const RawArray<T>& v) {
     value(static_cast<std::uint64_t>(v.size()));
     append(v.data(), v.size() * sizeof(T));
   }
@@ -50,6 +56,15 @@ class ByteReader {
     value(n);
     if (n > (bytes_.size() - at_) / sizeof(T)) need(bytes_.size());
     v.resize(static_cast<std::size_t>(n));
+    if (n > 0) std::memcpy(static_cast<void*>(v.data()), bytes_.data() + at_, v.size() * sizeof(T));
+    at_ += v.size() * sizeof(T);
+  }
+  template <class T>
+  void raw(RawArray<T>& v) {
+    std::uint64_t n = 0;
+    value(n);
+    if (n > (bytes_.size() - at_) / sizeof(T)) need(bytes_.size());
+    v.resize_for_overwrite(static_cast<std::size_t>(n));
     if (n > 0) std::memcpy(static_cast<void*>(v.data()), bytes_.data() + at_, v.size() * sizeof(T));
     at_ += v.size() * sizeof(T);
   }

@@ -3,29 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include "dem/contact/eepa/law.h"
 #include "dem/contact/hertz_mindlin/law.h"
+#include "dem/contact/liggghts_hertz/law.h"
 #include "dem/neighbours/cell_grid.h"
 #include "dem/neighbours/pair_list.h"
+#include "dem/neighbours/reach_plan.h"
+#include "dem/simulation/pair_lanes.h"
 #include "dem/simulation/simulation.h"
 #include "dem/walls/wall_model.h"
 
 namespace venato::dem {
 
-/// What a touching pair reads besides the spheres: one cache line.
-struct alignas(64) Motion {
-  Trio velocity, spin;
-  double inverse_mass;  ///< 0 = frozen
-  double mass;
-};
-struct Load {
-  Trio force, torque;
-};
 struct GrainCard {  ///< cold data
   GrainId id;
+  double mass;
   std::int32_t species, material;
   std::array<std::int32_t, 3> image;  ///< unwrapped = position + image * box length
   std::uint8_t frozen, removed;
@@ -38,7 +34,7 @@ struct LawTable {
   std::size_t materials = 0;
   const L& of(std::int32_t a, std::int32_t b) const { return law[static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b)]; }
 };
-using AnyLawTable = std::variant<LawTable<HertzMindlin>, LawTable<Eepa>>;
+using AnyLawTable = std::variant<LawTable<HertzMindlin>, LawTable<Eepa>, LawTable<LiggghtsHertz>>;
 
 struct WallContact {
   std::int32_t wall;
@@ -47,6 +43,16 @@ struct WallContact {
   double overlap;
   ContactForce force;
   Trio on_grain, torque_on_grain;
+};
+/// Where a grain touches a candidate wall, in the world's frame.
+struct WallTouchAt {
+  std::int32_t candidate;
+  Vec3 point, normal;  ///< normal from the grain into the wall
+  double distance;
+};
+struct WallScratch {  ///< working memory of one thread
+  std::vector<WallTouchAt> touch;
+  std::vector<WallContact> contact;
 };
 struct WallCandidate {
   std::int32_t wall, first_triangle, triangle_count;
@@ -63,18 +69,21 @@ struct WallList {
 
 /// Sums of one block of grains; blocks do not depend on the thread count, and are added in order.
 struct BlockBook {
-  double moved2 = 0, speed2 = 0, overlap = 0;
+  bool strayed = false;  ///< a grain left its path in the neighbour list by more than its allowance
+  double speed2 = 0, overlap = 0;
   GrainId fastest = -1;
-  std::int64_t contacts = 0;
+  std::int64_t contact_sides = 0, wall_contacts = 0;  ///< a pair of grains has two sides
   ContactLoss loss;
   double wall_work = 0;
   std::vector<WallLoad> wall;
   std::vector<Crossing> crossing;
 };
 
-inline constexpr std::int64_t kGrainsPerBlock = 256;
+class FetchAhead;
+struct BlockScratch;  // dem/simulation/block_pass.h
 
 struct Simulation::Impl {
+  ~Impl();
   explicit Impl(const SimulationSetup& s);
 
   // set-up
@@ -82,16 +91,15 @@ struct Simulation::Impl {
   AnyLawTable laws;
   PeriodicBox box;
   std::array<double, 3> snap{};  ///< see snapped()
-  std::vector<Trio> image_shift;
   std::vector<Counter> counters;
 
   // state
-  std::vector<Sphere> sphere;
-  std::vector<Motion> motion;
-  std::vector<Load> load;
+  std::vector<Sphere> sphere, next_sphere;  ///< next_*: what the running pass writes
+  std::vector<Motion> motion, next_motion;
+  std::vector<Load> load;  ///< of contacts only, valid unless `pending`
   std::vector<GrainCard> card;
   std::vector<std::int32_t> slot_of_id;  ///< -1 = removed
-  PairList pairs, spare_pairs;
+  PairList pairs;
   WallList wall_list;
   std::vector<WallModel> walls;
   std::vector<Vec3> wall_impulse;
@@ -102,18 +110,29 @@ struct Simulation::Impl {
 
   // neighbour list book-keeping
   CellGrid grid;
-  std::vector<Sphere> sphere_at_build;
+  PairListBuilder pair_builder;
+  std::vector<Anchor> anchor;  ///< [slot]; see dem/neighbours/reach_plan.h
+  std::vector<double> reach;   ///< [slot] of the search, when the list was built
+  ReachExperience reach_experience;
+  double list_life_s = 0, farthest_m = 0;
   std::int64_t listed = 0;  ///< grains in the list; later slots are new
-  double skin = 0;
   std::int64_t step_of_build = 0;
   bool list_valid = false, forces_valid = false;
+  /// Forces of the present positions are still to come, and with them the second half kick: the next step does both in the pass that moves the grains
+  /// on, unless somebody looks before (finish_step). Same bytes either way.
+  bool pending = false;
   bool one_material = true;  ///< all grains of one material: law parameters stay in the batch
+  bool any_frozen = false;   ///< of the grains in the list
   std::vector<Crossing> crossings;
   std::vector<BlockBook> books;
+  std::vector<std::unique_ptr<BlockScratch>> thread_scratch;  ///< [thread]
   StepStatistics stats;
+  std::int64_t living = 0;  ///< grains not removed
 
   std::int64_t grains() const { return static_cast<std::int64_t>(sphere.size()); }
   std::int64_t blocks() const { return (grains() + kGrainsPerBlock - 1) / kGrainsPerBlock; }
+  std::size_t block_end(std::size_t b) const { return std::min(PairList::block_start(b + 1), sphere.size()); }
+  BlockScratch& my_scratch();                                                                          ///< of the calling thread of a team
   int team() const { return static_cast<int>(std::clamp<std::int64_t>(blocks(), 1, setup.threads)); }  ///< threads worth waking
   double time() const { return static_cast<double>(step_count) * setup.time_step_s; }
   std::size_t slot(GrainId id) const;  ///< \throws UsageError for an unknown id
@@ -122,15 +141,22 @@ struct Simulation::Impl {
   void step_once();
   void evaluate();
   void move_walls(double time_s);
-  void kick_and_drift();
+  void advance();      ///< forces of the last step and its second half kick (if pending), first half kick, drift
+  void finish_step();  ///< forces and second half kick now
+  bool strayed() const;
   bool list_is_stale() const;
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
-  void pair_forces(double dt);
-  void gather_and_kick(double dt);  ///< sums pair forces, adds walls and gravity, second half kick (dt = 0: no kick)
-  void settle_books(double dt);
+  void keep_forces(double dt);  ///< forces of all contacts, also each by itself; sums into load
+  void note_crossings(std::size_t block);
+  MoveView move_view(const BlockScratch& mine) const;
+  void fetch_block(FetchAhead& ahead, std::size_t block) const;
+  PairView pair_view(std::size_t block, LoadRow* sum);
+  void settle_contacts(double dt);  ///< books of block_forces()
+  void settle_motion();             ///< books of move_grain()
   template <class L>
-  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, Load& sum, BlockBook& book, std::vector<WallContact>& scratch);
+  void wall_forces(const LawTable<L>& table, std::size_t s, double dt, BlockBook& book, WallScratch& scratch, LoadRow& sum);
+  void find_wall_touches(std::size_t s, std::vector<WallTouchAt>& touch) const;
 
   // helpers
   /// Rounds a displacement to the grid of 2^-52 of the box size in periodic directions: positions are then exact multiples of one quantum, so that

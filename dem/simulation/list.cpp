@@ -8,9 +8,7 @@
 
 namespace venato::dem {
 namespace {
-// Skin of the list in mean radii, steered by how long lists live: a pouring bed wants a thick one, a resting bed a thin one.
-constexpr double kFirstSkin = 0.3, kThinnest = 0.1, kThickest = 0.8;
-constexpr std::int64_t kShortLife = 15, kLongLife = 100;
+constexpr double kWallWay = 0.1;  // of the mean radius: the least that walls may move before the list is made anew
 
 template <class T>
 void permute(std::vector<T>& v, const std::vector<std::int32_t>& source) {
@@ -20,26 +18,6 @@ void permute(std::vector<T>& v, const std::vector<std::int32_t>& source) {
   v.swap(out);
 }
 
-double chosen_skin(const Simulation::Impl& e, double r_mean, double r_max) {
-  double skin = e.setup.skin_m;
-  if (!(skin > 0)) {
-    skin = e.skin > 0 ? e.skin : kFirstSkin * r_mean;
-    const std::int64_t life = e.step_count - e.step_of_build;
-    if (e.list_valid && life < kShortLife) skin *= 1.15;
-    if (e.list_valid && life > kLongLife) skin *= 0.9;
-    skin = std::clamp(skin, kThinnest * r_mean, kThickest * r_mean);
-  }
-  for (int a = 0; a < 3; ++a)
-    if (e.box.periodic(a)) {
-      const double length = e.box.length[static_cast<std::size_t>(a)];
-      if (length < 4.2 * r_max)
-        throw UsageError("box: the periodic length along " + std::string(1, "xyz"[a]) + " is " + std::to_string(length * 1e3) +
-                         " mm; it must be at least 2.1 diameters of the largest grain = " + std::to_string(4.2 * r_max * 1e3) +
-                         " mm, or a grain would touch two images of another (widen the slice or lower the coarse graining)");
-      skin = std::min(skin, 0.49 * length - 2 * r_max);
-    }
-  return skin;
-}
 }  // namespace
 
 std::array<double, 3> Simulation::Impl::wrap_correction(const Sphere& s) const {
@@ -59,47 +37,55 @@ Vec3 Simulation::Impl::wrapped(const Vec3& p) const {
 }
 
 void Simulation::Impl::rebuild_list() {
+  if (list_valid) reach_experience.list_ended(strayed());
   // 1. living grains, wrapped into the box
-  std::vector<std::int32_t> alive;
-  std::vector<Sphere> spheres;
-  alive.reserve(sphere.size());
-  spheres.reserve(sphere.size());
-  double r_sum = 0, r_max = 0;
-  for (std::size_t s = 0; s < sphere.size(); ++s) {
-    if (card[s].removed) continue;
+  const std::int64_t all = grains();
+#pragma omp parallel for schedule(static) num_threads(team()) if (team() > 1)
+  for (std::int64_t i = 0; i < all; ++i) {
+    const std::size_t s = static_cast<std::size_t>(i);
     const std::array<double, 3> turns = wrap_correction(sphere[s]);
     double* p[3] = {&sphere[s].x, &sphere[s].y, &sphere[s].z};
     for (std::size_t a = 0; a < 3; ++a) {
       *p[a] -= turns[a] * box.length[a];
       card[s].image[a] += static_cast<std::int32_t>(turns[a]);
     }
-    alive.push_back(static_cast<std::int32_t>(s));
-    spheres.push_back(sphere[s]);
-    r_sum += sphere[s].r, r_max = std::max(r_max, sphere[s].r);
   }
-  skin = alive.empty() ? 0 : chosen_skin(*this, r_sum / static_cast<double>(alive.size()), r_max);
-  // 2. spatial order
+  std::vector<std::int32_t> alive;
+  std::vector<Sphere> spheres;
+  std::vector<Trio> velocity;
+  alive.reserve(sphere.size()), spheres.reserve(sphere.size()), velocity.reserve(sphere.size());
+  for (std::size_t s = 0; s < sphere.size(); ++s)
+    if (!card[s].removed) alive.push_back(static_cast<std::int32_t>(s)), spheres.push_back(sphere[s]), velocity.push_back(motion[s].velocity);
+  // 2. how far everybody may go, and spatial order
+  ReachPlan plan = plan_reach({spheres, velocity, box, setup.gravity_m_s2.norm(), setup.time_step_s, setup.skin_m, reach_experience});
+  list_life_s = plan.life_s, farthest_m = plan.farthest_m;
   std::vector<std::int32_t> order;
   if (setup.brute_force_neighbours) {
     order.resize(alive.size());
     std::iota(order.begin(), order.end(), 0);
   } else {
-    order = grid.build(spheres, box, skin, team());
+    for (std::size_t k = 0; k < spheres.size(); ++k) spheres[k].r = plan.reach[k];
+    order = grid.build(spheres, box, team());
   }
+  permute(plan.anchor, order);
+  permute(plan.reach, order);
+  anchor.swap(plan.anchor), reach.swap(plan.reach);
   for (std::int32_t& k : order) k = alive[static_cast<std::size_t>(k)];  // new slot -> old slot
-  permute(sphere, order);
-  permute(motion, order);
-  permute(load, order);
+  // Into the arrays that the next pass will overwrite anyway.
+  next_sphere.resize(order.size()), next_motion.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    next_sphere[k] = sphere[static_cast<std::size_t>(order[k])], next_motion[k] = motion[static_cast<std::size_t>(order[k])];
+  sphere.swap(next_sphere), motion.swap(next_motion);
+  load.resize(order.size());
   permute(card, order);
   for (std::size_t s = 0; s < card.size(); ++s) slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s);
   one_material = std::all_of(card.begin(), card.end(), [&](const GrainCard& c) { return c.material == card.front().material; });
+  any_frozen = std::any_of(card.begin(), card.end(), [](const GrainCard& c) { return c.frozen != 0; });
   // 3. pairs and walls, histories carried
   std::vector<GrainId> ids(card.size());
   std::transform(card.begin(), card.end(), ids.begin(), [](const GrainCard& c) { return c.id; });
-  rebuild_pairs(pairs, spare_pairs, {sphere, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, skin, team()});
+  pair_builder.rebuild(pairs, {sphere, anchor, reach, list_life_s, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, team()});
   rebuild_walls(order);
-  sphere_at_build = sphere;
-  for (WallModel& w : walls) w.pose_at_build = w.pose;
   listed = grains();
   step_of_build = step_count;
   list_valid = true;
@@ -112,11 +98,21 @@ void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) 
   WallList old = std::move(wall_list);
   wall_list = WallList();
   const std::size_t old_count = old.contact_count.size();
-  double r_max = 0;
-  for (const Sphere& s : sphere) r_max = std::max(r_max, s.r);
+  double reach_max = 0, r_sum = 0;
+  std::vector<double> way(sphere.size());  // of each grain while the list is good
+  for (std::size_t s = 0; s < sphere.size(); ++s) {
+    const Anchor& a = anchor[s];
+    const double drift = std::isfinite(list_life_s) ? list_life_s * std::hypot(a.drift_x, a.drift_y, a.drift_z) : 0.0;
+    way[s] = 1.000001 * (static_cast<double>(a.allowance) + drift);
+    reach_max = std::max(reach_max, sphere[s].r + way[s]), r_sum += sphere[s].r;
+  }
   for (WallModel& w : walls) {
-    const double reach = r_max + skin + w.swing_m;
-    if (w.is_mesh() && !(w.bins.reach() >= reach && w.bins.reach() < 2 * reach)) w.bins.build(w.triangles, 1.3 * reach);
+    w.pose_at_build = w.pose;
+    const double ahead =
+        std::isfinite(list_life_s) ? pose_distance(w.wall.motion, w.pose, wall_pose(w.wall.motion, time() + list_life_s), w.reach_m) : 0.0;
+    w.listed_way_m = std::max(kWallWay * r_sum / static_cast<double>(std::max<std::int64_t>(1, n)), std::isfinite(ahead) ? ahead : 0.0);
+    const double farthest = reach_max + w.listed_way_m + w.swing_m;
+    if (w.is_mesh() && !(w.bins.reach() >= farthest && w.bins.reach() < 2 * farthest)) w.bins.build(w.triangles, 1.3 * farthest);
   }
   struct Rows {
     std::vector<WallCandidate> candidate;
@@ -133,18 +129,18 @@ void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) 
       for (std::size_t k = 0; k < walls.size() && !card[static_cast<std::size_t>(i)].frozen; ++k) {
         const WallModel& w = walls[k];
         const Vec3 centre = w.into_wall_frame(wrapped(Vec3(x.x, x.y, x.z)));
-        const double reach = x.r + skin + w.swing_m;
+        const double near = x.r + way[static_cast<std::size_t>(i)] + w.listed_way_m + w.swing_m;
         const std::int32_t first = static_cast<std::int32_t>(out.triangle.size());
         if (w.is_mesh()) {
           const auto [from, to] = w.bins.near(centre);
           for (const int* t = from; t != to; ++t)
-            if ((nearest_on_triangle(w.triangles[static_cast<std::size_t>(*t)], centre) - centre).squaredNorm() < reach * reach)
+            if ((nearest_on_triangle(w.triangles[static_cast<std::size_t>(*t)], centre) - centre).squaredNorm() < near * near)
               out.triangle.push_back(*t);
           const std::int32_t count = static_cast<std::int32_t>(out.triangle.size()) - first;
           if (count == 0) continue;
           out.candidate.push_back({static_cast<std::int32_t>(k), first, count});
           room += std::min(count, kMaxTouches);
-        } else if (w.endless || touch_wall(w, centre, reach, nullptr, nullptr).count > 0) {
+        } else if (w.endless || touch_wall(w, centre, near, nullptr, nullptr).count > 0) {
           out.candidate.push_back({static_cast<std::int32_t>(k), first, 0});
           ++room;
         }

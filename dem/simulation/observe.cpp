@@ -10,8 +10,18 @@ namespace venato::dem {
 namespace {
 GrainState state_of(const Simulation::Impl& e, std::size_t s) {
   const Motion& m = e.motion[s];
-  return {e.card[s].id,  e.unwrapped(s), to_vec3(m.velocity), to_vec3(m.spin),    to_vec3(e.load[s].force), to_vec3(e.load[s].torque),
-          e.sphere[s].r, m.mass,         e.card[s].species,   e.card[s].material, e.card[s].frozen != 0};
+  const GrainCard& c = e.card[s];
+  return {c.id,
+          e.unwrapped(s),
+          to_vec3(m.velocity),
+          to_vec3(m.spin),
+          to_vec3(e.load[s].force) + c.mass * e.setup.gravity_m_s2,
+          to_vec3(e.load[s].torque),
+          e.sphere[s].r,
+          c.mass,
+          c.species,
+          c.material,
+          c.frozen != 0};
 }
 
 /// Slots of living grains by ascending id.
@@ -22,14 +32,15 @@ std::vector<std::size_t> by_id(const Simulation::Impl& e) {
   return slots;
 }
 
-bool living(const Simulation::Impl& e, std::size_t s) { return !e.card[s].removed; }
+bool alive(const Simulation::Impl& e, std::size_t s) { return !e.card[s].removed; }
 
 /// Geometry of a touching pair at the present positions, enough for reading (no motion in it).
-ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::size_t p, Trio& to_j) {
-  const std::size_t j = static_cast<std::size_t>(e.pairs.pair[p].j);
+ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::size_t j) {
   const Sphere &a = e.sphere[i], &c = e.sphere[j];
-  const Trio& shift = e.image_shift[static_cast<std::size_t>(e.pairs.pair[p].image)];
-  to_j = {(c.x - a.x) + shift.x, (c.y - a.y) + shift.y, (c.z - a.z) + shift.z};
+  double d[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (e.box.length[k] > 0) d[k] -= std::round(d[k] / e.box.length[k]) * e.box.length[k];
+  const Trio to_j{d[0], d[1], d[2]};
   ContactGeometry g{};
   g.normal = (1 / length(to_j)) * to_j;
   g.overlap = std::max(0.0, a.r + c.r - length(to_j));
@@ -37,18 +48,21 @@ ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::
   return g;
 }
 
+/// f(i, j, history, force on i) for every touching pair, seen from the grain with the lower id.
 template <class F>
 void for_touching_pairs(const Simulation::Impl& e, const F& f) {
-  const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
-  for (std::size_t i = 0; i < listed; ++i)
-    for (std::size_t p = static_cast<std::size_t>(e.pairs.first[i]); p < static_cast<std::size_t>(e.pairs.first[i + 1]); ++p)
-      if (e.pairs.touching[p] && living(e, i) && living(e, static_cast<std::size_t>(e.pairs.pair[p].j))) f(i, p);
+  for (std::size_t b = 0; b + 1 < e.pairs.block_first.size(); ++b)
+    for (std::size_t p = static_cast<std::size_t>(e.pairs.block_first[b]); p < static_cast<std::size_t>(e.pairs.block_first[b + 1]); ++p) {
+      if (!e.pairs.touching[p]) continue;
+      const std::size_t i = PairList::block_start(b) + e.pairs.own[p], j = static_cast<std::size_t>(e.pairs.partner[p]);
+      if (e.card[i].id < e.card[j].id && alive(e, i) && alive(e, j)) f(i, j, e.pairs.history_of(b, p), e.pairs.contacts[b].kept[e.pairs.place[p]]);
+    }
 }
 template <class F>
 void for_wall_contacts(const Simulation::Impl& e, const F& f) {
   for (std::size_t s = 0; s < e.wall_list.contact_count.size(); ++s)
     for (std::size_t k = 0; k < e.wall_list.contact_count[s]; ++k)
-      if (living(e, s)) f(s, e.wall_list.contact[static_cast<std::size_t>(e.wall_list.contact_first[s]) + k]);
+      if (alive(e, s)) f(s, e.wall_list.contact[static_cast<std::size_t>(e.wall_list.contact_first[s]) + k]);
 }
 
 /// FNV-1a over 64-bit words.
@@ -64,36 +78,37 @@ struct Hash {
 };
 }  // namespace
 
-std::size_t Simulation::grain_count() const {
-  return static_cast<std::size_t>(std::count_if(impl_->card.begin(), impl_->card.end(), [](const GrainCard& c) { return !c.removed; }));
-}
+std::size_t Simulation::grain_count() const { return static_cast<std::size_t>(impl_->living); }
 bool Simulation::has_grain(GrainId id) const {
   return id >= 0 && id < static_cast<GrainId>(impl_->slot_of_id.size()) && impl_->slot_of_id[static_cast<std::size_t>(id)] >= 0;
 }
-GrainState Simulation::grain(GrainId id) const { return state_of(*impl_, impl_->slot(id)); }
+GrainState Simulation::grain(GrainId id) const {
+  impl_->finish_step();
+  return state_of(*impl_, impl_->slot(id));
+}
 std::vector<GrainId> Simulation::grain_ids() const {
   std::vector<GrainId> ids;
   for (const std::size_t s : by_id(*impl_)) ids.push_back(impl_->card[s].id);
   return ids;
 }
 std::vector<GrainState> Simulation::grains() const {
+  impl_->finish_step();
   std::vector<GrainState> all;
   for (const std::size_t s : by_id(*impl_)) all.push_back(state_of(*impl_, s));
   return all;
 }
 
 std::vector<ContactState> Simulation::contacts() const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   std::vector<ContactState> all;
-  for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
-    Trio to_j;
-    const ContactGeometry g = resting_geometry(e, i, p, to_j);
-    const PairForce& f = e.pairs.force[p];
-    const ContactHistory& h = e.pairs.history[p];
-    const Trio across_n = across(f.on_i, g.normal);
-    const Trio rolling = f.torque_i - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.on_i);
-    all.push_back({e.card[i].id, e.pairs.partner[p], -1, g.overlap, to_vec3(g.normal), -dot(f.on_i, g.normal), to_vec3(h.spring), to_vec3(across_n),
-                   to_vec3(h.rolling), to_vec3(rolling), to_vec3(f.on_i), to_vec3(f.torque_i)});
+  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, const LoadRow& on_i) {
+    const ContactGeometry g = resting_geometry(e, i, j);
+    const Load f = on_i.load();
+    const Trio across_n = across(f.force, g.normal);
+    const Trio rolling = f.torque - (e.sphere[i].r - 0.5 * g.overlap) * cross(g.normal, f.force);
+    all.push_back({e.card[i].id, e.card[j].id, -1, g.overlap, to_vec3(g.normal), -dot(f.force, g.normal), to_vec3(h.spring), to_vec3(across_n),
+                   to_vec3(h.rolling), to_vec3(rolling), to_vec3(f.force), to_vec3(f.torque)});
   });
   const std::size_t pair_count = all.size();
   for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {
@@ -107,13 +122,20 @@ std::vector<ContactState> Simulation::contacts() const {
 }
 
 std::size_t Simulation::wall_count() const { return impl_->walls.size(); }
-WallLoad Simulation::wall_load(int wall) const { return impl_->wall_load.at(static_cast<std::size_t>(wall)); }
-Vec3 Simulation::wall_impulse_n_s(int wall) const { return impl_->wall_impulse.at(static_cast<std::size_t>(wall)); }
+WallLoad Simulation::wall_load(int wall) const {
+  impl_->finish_step();
+  return impl_->wall_load.at(static_cast<std::size_t>(wall));
+}
+Vec3 Simulation::wall_impulse_n_s(int wall) const {
+  impl_->finish_step();
+  return impl_->wall_impulse.at(static_cast<std::size_t>(wall));
+}
 Vec3 Simulation::wall_offset_m(int wall) const { return impl_->walls.at(static_cast<std::size_t>(wall)).pose.offset_m; }
 
 double Simulation::mean_contacts() const {
+  impl_->finish_step();
   double sides = 0;
-  for_touching_pairs(*impl_, [&](std::size_t, std::size_t) { sides += 2; });
+  for_touching_pairs(*impl_, [&](auto...) { sides += 2; });
   for_wall_contacts(*impl_, [&](std::size_t, const WallContact&) { sides += 1; });
   const std::size_t n = grain_count();
   return n > 0 ? sides / static_cast<double>(n) : 0;
@@ -122,24 +144,23 @@ bool Simulation::wall_present(int wall) const { return impl_->walls.at(static_ca
 Vec3 Simulation::wall_point_m(int wall, const Vec3& p) const { return impl_->walls.at(static_cast<std::size_t>(wall)).point_to_world(p); }
 
 EnergyBook Simulation::energy() const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   EnergyBook b;
   for (const std::size_t s : by_id(e)) {
     if (e.card[s].frozen) continue;
     const Motion& m = e.motion[s];
-    b.kinetic_translation_j += 0.5 * m.mass * dot(m.velocity, m.velocity);
-    b.kinetic_rotation_j += 0.2 * m.mass * e.sphere[s].r * e.sphere[s].r * dot(m.spin, m.spin);
-    b.potential_j -= m.mass * e.setup.gravity_m_s2.dot(e.unwrapped(s));
+    b.kinetic_translation_j += 0.5 * e.card[s].mass * dot(m.velocity, m.velocity);
+    b.kinetic_rotation_j += 0.2 * e.card[s].mass * e.sphere[s].r * e.sphere[s].r * dot(m.spin, m.spin);
+    b.potential_j -= e.card[s].mass * e.setup.gravity_m_s2.dot(e.unwrapped(s));
   }
   std::visit(
       [&](const auto& table) {
         auto add = [&](const ContactEnergy& c) {
           b.elastic_normal_j += c.elastic_normal, b.elastic_tangential_j += c.elastic_tangential, b.elastic_rolling_j += c.elastic_rolling;
         };
-        for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
-          Trio to_j;
-          const ContactGeometry g = resting_geometry(e, i, p, to_j);
-          add(table.of(e.card[i].material, e.card[static_cast<std::size_t>(e.pairs.pair[p].j)].material).energy(g, e.pairs.history[p]));
+        for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& h, const LoadRow&) {
+          add(table.of(e.card[i].material, e.card[j].material).energy(resting_geometry(e, i, j), h));
         });
         for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {
           ContactGeometry g{};
@@ -169,7 +190,7 @@ bool Simulation::is_free(const Vec3& position, double radius) const {
   const Impl& e = *impl_;
   const Vec3 p = e.wrapped(position);
   auto apart = [&](std::size_t s) {
-    if (!living(e, s)) return true;
+    if (!alive(e, s)) return true;
     double d[3] = {e.sphere[s].x - p.x(), e.sphere[s].y - p.y(), e.sphere[s].z - p.z()};
     for (std::size_t a = 0; a < 3; ++a)
       if (e.box.length[a] > 0) d[a] -= std::round(d[a] / e.box.length[a]) * e.box.length[a];
@@ -180,7 +201,7 @@ bool Simulation::is_free(const Vec3& position, double radius) const {
   const std::size_t from = e.setup.brute_force_neighbours ? 0 : static_cast<std::size_t>(e.listed);
   for (std::size_t s = from; s < e.sphere.size() && free; ++s) free = apart(s);
   if (free && from > 0)
-    e.grid.for_runs_near(p.x(), p.y(), p.z(), radius + 0.5 * e.skin, [&](std::int32_t a, std::int32_t b) {
+    e.grid.for_runs_near(p.x(), p.y(), p.z(), radius + e.farthest_m, [&](std::int32_t a, std::int32_t b) {
       for (std::int32_t s = a; s < b && free; ++s) free = apart(static_cast<std::size_t>(s));
     });
   return free;
@@ -208,19 +229,20 @@ double Simulation::wall_gap_m(const Vec3& position, double radius) const {
 }
 
 double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_speed_m_s) const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   double top = -std::numeric_limits<double>::infinity();
   const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
   for (std::size_t s = 0; s < listed; ++s) {
     const Sphere& x = e.sphere[s];
-    if (!living(e, s) || x.z <= top) continue;
+    if (!alive(e, s) || x.z <= top) continue;
     const Trio& v = e.motion[s].velocity;
     if (v.x * v.x + v.y * v.y + v.z * v.z > resting_speed_m_s * resting_speed_m_s) continue;
     const Vec3 p = e.wrapped(Vec3(x.x, x.y, x.z));
     if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
     bool touches = e.wall_list.contact_count[s] > 0;
-    for (std::int32_t k = e.pairs.incident_first[s]; k < e.pairs.incident_first[s + 1] && !touches; ++k)
-      touches = e.pairs.touching[e.pairs.incident[static_cast<std::size_t>(k)] >> 1] != 0;
+    for (std::int32_t k = e.pairs.row_first[s]; k < e.pairs.row_first[s + 1] && !touches; ++k)
+      touches = e.pairs.touching[e.pairs.pair_of(s, e.pairs.row[static_cast<std::size_t>(k)])] != 0;
     if (touches) top = x.z;
   }
   return top;
@@ -229,7 +251,7 @@ double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_s
 std::vector<GrainId> Simulation::grains_outside(const Box& box) const {
   std::vector<GrainId> ids;
   for (std::size_t s = 0; s < impl_->sphere.size(); ++s) {
-    if (!living(*impl_, s)) continue;
+    if (!alive(*impl_, s)) continue;
     const double p[3] = {impl_->sphere[s].x, impl_->sphere[s].y, impl_->sphere[s].z};
     for (int a = 0; a < 3; ++a)
       if (!box.periodic[a] && !(p[a] >= box.low[a] && p[a] <= box.high[a])) {
@@ -242,6 +264,7 @@ std::vector<GrainId> Simulation::grains_outside(const Box& box) const {
 }
 
 std::uint64_t Simulation::state_hash() const {
+  impl_->finish_step();
   const Impl& e = *impl_;
   Hash h;
   h.add(static_cast<std::uint64_t>(e.step_count));
@@ -252,9 +275,9 @@ std::uint64_t Simulation::state_hash() const {
     h.add(e.motion[s].velocity), h.add(e.motion[s].spin), h.add(e.load[s].force), h.add(e.load[s].torque);
   }
   std::uint64_t contacts = 0;  // sum of hashes: does not depend on the order of slots
-  for_touching_pairs(e, [&](std::size_t i, std::size_t p) {
+  for_touching_pairs(e, [&](std::size_t i, std::size_t j, const ContactHistory& pair, const LoadRow&) {
     Hash c;
-    c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.pairs.partner[p])), c.add(e.pairs.history[p]);
+    c.add(static_cast<std::uint64_t>(e.card[i].id)), c.add(static_cast<std::uint64_t>(e.card[j].id)), c.add(pair);
     contacts += c.h;
   });
   for_wall_contacts(e, [&](std::size_t s, const WallContact& w) {

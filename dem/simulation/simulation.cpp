@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "dem/contact/kernels/mixing.h"
-#include "dem/simulation/impl.h"
+#include "dem/simulation/block_pass.h"
 
 namespace venato::dem {
 namespace {
@@ -22,6 +22,8 @@ LawTable<L> make_table(const MaterialTable& m, const Make& make) {
 
 AnyLawTable make_laws(const SimulationSetup& s) {
   if (s.law == LawKind::eepa) return make_table<Eepa>(s.materials, [&](int a, int b) { return make_eepa(s.materials, s.eepa, a, b); });
+  if (s.law == LawKind::liggghts_hertz)
+    return make_table<LiggghtsHertz>(s.materials, [&](int a, int b) { return make_liggghts_hertz(s.materials, a, b); });
   return make_table<HertzMindlin>(s.materials, [&](int a, int b) { return make_hertz_mindlin(s.materials, a, b); });
 }
 }  // namespace
@@ -48,8 +50,9 @@ Simulation::Impl::Impl(const SimulationSetup& s) : setup(s) {
     setup.box.high[a] = snapped(a, s.box.high[a]);
   }
   box = PeriodicBox::from(setup.box);
-  image_shift = image_shifts(box);
 }
+
+Simulation::Impl::~Impl() = default;
 
 std::size_t Simulation::Impl::slot(GrainId id) const {
   if (id < 0 || id >= static_cast<GrainId>(slot_of_id.size()) || slot_of_id[static_cast<std::size_t>(id)] < 0)
@@ -79,9 +82,10 @@ GrainId Simulation::Impl::add(const GrainInput& g) {
   Vec3 p;
   for (int a = 0; a < 3; ++a) p[a] = snapped(a, g.position_m[a]);
   sphere.push_back({p.x(), p.y(), p.z(), g.radius_m});
-  motion.push_back({to_trio(g.velocity_m_s), to_trio(g.spin_rad_s), g.frozen ? 0 : 1 / mass, mass});
-  load.push_back({mass * to_trio(setup.gravity_m_s2), {}});
-  card.push_back({id, g.species, g.material, {0, 0, 0}, static_cast<std::uint8_t>(g.frozen), 0});
+  motion.push_back({to_trio(g.velocity_m_s), to_trio(g.spin_rad_s), g.frozen ? 0 : 1 / mass, g.frozen ? 0 : 2.5 / (mass * g.radius_m * g.radius_m)});
+  load.push_back({});
+  card.push_back({id, mass, g.species, g.material, {0, 0, 0}, static_cast<std::uint8_t>(g.frozen), 0});
+  ++living;
   slot_of_id.push_back(static_cast<std::int32_t>(sphere.size()) - 1);
   list_valid = false;
   return id;
@@ -93,13 +97,19 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 GrainId Simulation::add_grain(const GrainInput& g) {
+  impl_->finish_step();
   impl_->forces_valid = false;
   return impl_->add(g);
 }
-GrainId Simulation::insert_free_grain(const GrainInput& g) { return impl_->add(g); }
+GrainId Simulation::insert_free_grain(const GrainInput& g) {
+  impl_->finish_step();
+  return impl_->add(g);
+}
 void Simulation::remove_grain(GrainId id) {
   const std::size_t s = impl_->slot(id);
+  impl_->finish_step();
   impl_->card[s].removed = 1;
+  --impl_->living;
   impl_->slot_of_id[static_cast<std::size_t>(id)] = -1;
   impl_->list_valid = false;
 }
@@ -109,6 +119,7 @@ void Simulation::remove_grains(std::span<const GrainId> ids) {
 int Simulation::add_wall(const Wall& wall) {
   if (wall.material < 0 || wall.material >= static_cast<int>(impl_->setup.materials.materials.size()))
     throw UsageError("wall '" + wall.name + "': material " + std::to_string(wall.material) + " is not in the table");
+  impl_->finish_step();
   WallModel w = make_wall(wall);
   w.pose = w.pose_before = w.pose_at_build = wall_pose(wall.motion, impl_->time());
   impl_->walls.push_back(std::move(w));
@@ -118,6 +129,7 @@ int Simulation::add_wall(const Wall& wall) {
   return static_cast<int>(impl_->walls.size()) - 1;
 }
 void Simulation::set_wall_motion(int wall, const WallMotion& motion) {
+  impl_->finish_step();
   WallModel& w = impl_->walls.at(static_cast<std::size_t>(wall));
   Wall changed = w.wall;
   changed.motion = motion;
@@ -127,11 +139,13 @@ void Simulation::set_wall_motion(int wall, const WallMotion& motion) {
   impl_->list_valid = impl_->forces_valid = false;
 }
 void Simulation::set_velocity(GrainId id, const Vec3& v, const Vec3& spin) {
+  impl_->finish_step();
   Motion& m = impl_->motion[impl_->slot(id)];
   m.velocity = to_trio(v), m.spin = to_trio(spin);
   impl_->forces_valid = false;
 }
 void Simulation::set_position(GrainId id, const Vec3& p) {
+  impl_->finish_step();
   const std::size_t s = impl_->slot(id);
   Sphere& x = impl_->sphere[s];
   x.x = impl_->snapped(0, p.x()), x.y = impl_->snapped(1, p.y()), x.z = impl_->snapped(2, p.z());
@@ -139,6 +153,7 @@ void Simulation::set_position(GrainId id, const Vec3& p) {
   impl_->list_valid = impl_->forces_valid = false;
 }
 void Simulation::set_gravity(const Vec3& g) {
+  impl_->finish_step();
   impl_->setup.gravity_m_s2 = g;
   impl_->forces_valid = false;
 }

@@ -95,13 +95,16 @@ struct Crossing {
   Vec3 velocity_m_s, spin_rad_s;  ///< half-step values
 };
 
-struct StepStatistics {  ///< since the last reset_statistics()
+/// Since the last reset_statistics(). What belongs to forces is that of the last step whose forces were asked for or needed: reading grains or
+/// contacts brings it up to date.
+struct StepStatistics {
   std::int64_t steps = 0, list_builds = 0;
   double pair_count = 0, contact_count = 0;  ///< of the last step
   double max_speed_m_s = 0;
   GrainId fastest = -1;
-  double max_overlap = 0;                                                                                   ///< overlap / radius of the smaller grain
-  double seconds_list = 0, seconds_contact = 0, seconds_sum = 0, seconds_integrate = 0, seconds_walls = 0;  ///< wall clock by phase
+  double max_overlap = 0;  ///< overlap / radius of the smaller grain
+  /// Wall clock by phase: making lists; finding which listed pairs touch; their forces; summing them, kicks and drift; walls.
+  double seconds_list = 0, seconds_scan = 0, seconds_contact = 0, seconds_integrate = 0, seconds_walls = 0;
 };
 
 class Simulation {
@@ -157,8 +160,8 @@ class Simulation {
   /// Signed gap of a sphere to the nearest present wall [m]; +infinity without walls. Exact where it matters: gaps to meshes beyond about
   /// 0.3 radius may be reported larger.
   double wall_gap_m(const Vec3& position_m, double radius_m) const;
-  /// Highest centre of the grains that rest on something inside the columns low.xy … high.xy [m]; -infinity when there are none. Resting = touching and slower than
-  /// `resting_speed_m_s`: grains that bounce on their way down do not count.
+  /// Highest centre of the grains that rest on something inside the columns low.xy … high.xy [m]; -infinity when there are none. Resting = touching
+  /// and slower than `resting_speed_m_s`: grains that bounce on their way down do not count.
   double bed_top_m(const Vec3& low, const Vec3& high, double resting_speed_m_s) const;
   /// Ids of grains whose centre is outside the box in a non-periodic direction (after the last step), ascending.
   std::vector<GrainId> grains_outside(const Box& box) const;

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/simulation/impl.h"
+#include "dem/simulation/block_pass.h"
 
 namespace venato::dem {
 namespace {
+constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
+constexpr std::size_t kFetchFrom = 4000;     // grains: smaller systems live in the caches anyway
+constexpr std::size_t kGrainsPerFetch = 8, kLinesPerFetch = 40;
+
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum), start_(omp_get_wtime()) {}
@@ -22,29 +26,49 @@ void timed(double& sum, const F& f) {
   const Stopwatch watch(sum);
   f();
 }
+
+/// The seconds of a pass, shared out as the sampled clocks say.
+void share_out(StepStatistics& stats, double seconds, const std::vector<PassClock>& clocks) {
+  PassClock all;
+  for (const PassClock& c : clocks) all.scan += c.scan, all.contact += c.contact, all.walls += c.walls, all.integrate += c.integrate;
+  const double sum = all.scan + all.contact + all.walls + all.integrate;
+  if (!(sum > 0)) return;
+  stats.seconds_scan += seconds * all.scan / sum, stats.seconds_contact += seconds * all.contact / sum;
+  stats.seconds_walls += seconds * all.walls / sum, stats.seconds_integrate += seconds * all.integrate / sum;
+}
 }  // namespace
 
+/// The whole step. Velocity Verlet is kick, drift, forces, kick; forces and the second kick wait for the next step's pass over the grains.
 void Simulation::Impl::step_once() {
   if (!forces_valid) evaluate();
-  const double dt = setup.time_step_s;
+  advance();
   ++step_count;
   timed(stats.seconds_walls, [&] { move_walls(time()); });
-  timed(stats.seconds_integrate, [&] { kick_and_drift(); });
+  settle_motion();
   if (list_is_stale()) timed(stats.seconds_list, [&] { rebuild_list(); });
-  timed(stats.seconds_contact, [&] { pair_forces(dt); });
-  timed(stats.seconds_sum, [&] { gather_and_kick(dt); });
-  settle_books(dt);
+  pending = true;
   ++stats.steps;
 }
 
 /// Forces of the present positions and velocities: springs turn and stretch by nothing in a step of length zero.
 void Simulation::Impl::evaluate() {
+  finish_step();
   if (!list_valid) rebuild_list();
-  for (BlockBook& b : books) b = BlockBook();
-  pair_forces(0);
-  gather_and_kick(0);
-  settle_books(0);
+  keep_forces(0);
   forces_valid = true;
+}
+
+void Simulation::Impl::finish_step() {
+  if (!pending) return;
+  keep_forces(setup.time_step_s);
+  const double half = 0.5 * setup.time_step_s;
+  const Trio g = to_trio(setup.gravity_m_s2);
+  for (std::size_t s = 0; s < sphere.size(); ++s) {  // the same operations as kick() of pair_lanes.cpp
+    Motion& m = motion[s];
+    m.velocity = m.velocity + (half * m.inverse_mass) * load[s].force + (m.inverse_mass > 0 ? 1.0 : 0.0) * (half * g);
+    m.spin = m.spin + (half * m.inverse_inertia) * load[s].torque;
+  }
+  pending = false;
 }
 
 void Simulation::Impl::move_walls(double t) {
@@ -55,110 +79,169 @@ void Simulation::Impl::move_walls(double t) {
   }
 }
 
-void Simulation::Impl::kick_and_drift() {
-  const double dt = setup.time_step_s, half = 0.5 * dt, start = time() - dt;
-  const std::int64_t n = grains(), nb = blocks();
+BlockScratch& Simulation::Impl::my_scratch() {
+  std::unique_ptr<BlockScratch>& mine = thread_scratch[static_cast<std::size_t>(omp_get_thread_num())];
+  if (!mine) mine = std::make_unique<BlockScratch>();
+  prepare_batch(*this, mine->batch);
+  return *mine;
+}
+
+void Simulation::Impl::keep_forces(double dt) {
+  const std::int64_t nb = blocks();
   books.resize(static_cast<std::size_t>(nb));
-#pragma omp parallel for schedule(static) num_threads(team()) if (team() > 1)
-  for (std::int64_t b = 0; b < nb; ++b) {
-    BlockBook& book = books[static_cast<std::size_t>(b)];
-    book.moved2 = book.speed2 = book.overlap = 0, book.fastest = -1, book.contacts = 0, book.loss = {}, book.wall_work = 0;
-    for (std::int64_t i = b * kGrainsPerBlock; i < std::min(n, (b + 1) * kGrainsPerBlock); ++i) {
-      const std::size_t s = static_cast<std::size_t>(i);
-      Motion& m = motion[s];
-      Sphere& x = sphere[s];
-      m.velocity = m.velocity + (half * m.inverse_mass) * load[s].force;
-      m.spin = m.spin + (half * 2.5 * m.inverse_mass / (x.r * x.r)) * load[s].torque;
-      const double old[3] = {x.x, x.y, x.z};
-      x.x += snapped(0, m.velocity.x * dt);
-      x.y += snapped(1, m.velocity.y * dt);
-      x.z += snapped(2, m.velocity.z * dt);
-      const Trio way = s < sphere_at_build.size() ? Trio{x.x - sphere_at_build[s].x, x.y - sphere_at_build[s].y, x.z - sphere_at_build[s].z} : Trio{};
-      book.moved2 = std::max(book.moved2, dot(way, way));
-      const double speed2 = dot(m.velocity, m.velocity);
-      if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = card[s].id;  // NaN wins
-      const double now[3] = {x.x, x.y, x.z};
-      for (std::size_t c = 0; c < counters.size(); ++c) {
-        const Counter& k = counters[c];
-        const double a = old[k.axis] - k.position_m, z = now[k.axis] - k.position_m;
-        if (k.sign > 0 ? !(a < 0 && z >= 0) : !(a > 0 && z <= 0)) continue;
-        const double part = a / (a - z);
-        Vec3 at(old[0] + part * (now[0] - old[0]), old[1] + part * (now[1] - old[1]), old[2] + part * (now[2] - old[2]));
-        const Vec3 inside = wrapped(at);
-        if ((inside.array() < k.window_low.array()).any() || (inside.array() > k.window_high.array()).any()) continue;
-        for (int d = 0; d < 3; ++d) at[d] += card[s].image[static_cast<std::size_t>(d)] * box.length[static_cast<std::size_t>(d)];
-        book.crossing.push_back({static_cast<int>(c), start + part * dt, part, card[s].id, at, to_vec3(m.velocity), to_vec3(m.spin)});
-      }
+  thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
+  load.resize(sphere.size());
+  std::visit(
+      [&](const auto& table) {
+#pragma omp parallel num_threads(team()) if (team() > 1)
+        {
+          BlockScratch& mine = my_scratch();
+#pragma omp for schedule(dynamic, 1)
+          for (std::int64_t i = 0; i < nb; ++i) {
+            const std::size_t b = static_cast<std::size_t>(i);
+            block_forces(*this, table, dt, b, mine, true, nullptr);
+            for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = mine.sum[s - PairList::block_start(b)].load();
+          }
+        }
+      },
+      laws);
+  settle_contacts(dt);
+}
+
+void Simulation::Impl::note_crossings(std::size_t block) {
+  BlockBook& book = books[block];
+  for (std::size_t s = PairList::block_start(block); s < block_end(block); ++s) {
+    const Sphere &from = sphere[s], &to = next_sphere[s];
+    const double old[3] = {from.x, from.y, from.z}, now[3] = {to.x, to.y, to.z};
+    for (std::size_t c = 0; c < counters.size(); ++c) {
+      const Counter& k = counters[c];
+      const double a = old[k.axis] - k.position_m, z = now[k.axis] - k.position_m;
+      if (k.sign > 0 ? !(a < 0 && z >= 0) : !(a > 0 && z <= 0)) continue;
+      const double part = a / (a - z);
+      Vec3 at(old[0] + part * (now[0] - old[0]), old[1] + part * (now[1] - old[1]), old[2] + part * (now[2] - old[2]));
+      const Vec3 inside = wrapped(at);
+      if ((inside.array() < k.window_low.array()).any() || (inside.array() > k.window_high.array()).any()) continue;
+      for (int d = 0; d < 3; ++d) at[d] += card[s].image[static_cast<std::size_t>(d)] * box.length[static_cast<std::size_t>(d)];
+      const Motion& m = next_motion[s];
+      book.crossing.push_back({static_cast<int>(c), time() + part * setup.time_step_s, part, card[s].id, at, to_vec3(m.velocity), to_vec3(m.spin)});
     }
   }
+}
+
+MoveView Simulation::Impl::move_view(const BlockScratch& mine) const {
+  MoveView v{};
+  v.sphere = sphere.data(), v.motion = motion.data(), v.anchor = anchor.data(), v.anchored = std::min(anchor.size(), sphere.size());
+  v.load = load.data();
+  v.time_step = setup.time_step_s, v.listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
+  for (int a = 0; a < 3; ++a) v.gravity.v[a] = setup.gravity_m_s2[a], v.snap[a] = snap[static_cast<std::size_t>(a)];
+  v.sum = pending ? mine.sum : nullptr;
+  return v;
+}
+
+/// What the pass over `block` will read and write, and the lists of the one after it (they say which grains to fetch for that one).
+void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
+  ahead.restart();
+  const std::size_t nb = static_cast<std::size_t>(blocks());
+  if (sphere.size() < kFetchFrom || block >= nb) return;
+  const std::size_t s = PairList::block_start(block), n = block_end(block) - s, first = static_cast<std::size_t>(pairs.block_first[block]);
+  const std::size_t count = static_cast<std::size_t>(pairs.block_first[block + 1]) - first;
+  ahead.add(sphere.data() + s, n), ahead.add(motion.data() + s, n);
+  ahead.add(pairs.own.data() + first, count), ahead.add(pairs.touching.data() + first, count), ahead.add(pairs.place.data() + first, count);
+  ahead.add(pairs.contacts[block].history.data(), pairs.contacts[block].used);
+  ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
+  ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
+  if (block + 1 < nb)
+    ahead.add(pairs.partner.data() + pairs.block_first[block + 1],
+              static_cast<std::size_t>(pairs.block_first[block + 2] - pairs.block_first[block + 1]));
+}
+
+void Simulation::Impl::advance() {
+  const double began = omp_get_wtime();
+  const std::int64_t nb = blocks();
+  books.resize(static_cast<std::size_t>(nb));
+  thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
+  next_sphere.resize(sphere.size());
+  next_motion.resize(sphere.size());
+  std::vector<PassClock> clocks(thread_scratch.size());
+  const std::int64_t chunk = std::max<std::int64_t>(1, nb / (8 * team()));  // neighbouring blocks share what they read
+  std::visit(
+      [&](const auto& table) {
+#pragma omp parallel num_threads(team()) if (team() > 1)
+        {
+          BlockScratch& mine = my_scratch();
+          PassClock& clock = clocks[static_cast<std::size_t>(omp_get_thread_num())];
+#pragma omp for schedule(dynamic, chunk)
+          for (std::int64_t i = 0; i < nb; ++i) {
+            const std::size_t b = static_cast<std::size_t>(i), start = PairList::block_start(b), end = block_end(b);
+            BlockBook& book = books[b];
+            const bool clocked = i % kClockedBlocks == 0;
+            if (pending) {
+              fetch_block(mine.ahead, b + 1);
+              block_forces(*this, table, setup.time_step_s, b, mine, false, clocked ? &clock : nullptr);
+            }
+            const double t = clocked ? omp_get_wtime() : 0;
+            MoveView v = move_view(mine);
+            v.next_sphere = next_sphere.data(), v.next_motion = next_motion.data();
+            MoveBook moved;
+            for (std::size_t s = start; s < end; s += kGrainsPerFetch) {
+              move_grains(v, s, std::min(end, s + kGrainsPerFetch), moved);
+              if (pending) v.sum += kGrainsPerFetch;
+              if (pending) mine.ahead.some(kLinesPerFetch);
+            }
+            if (pending) mine.ahead.rest();
+            book.strayed = moved.strayed, book.speed2 = moved.speed2;
+            book.fastest = moved.fastest < card.size() ? card[moved.fastest].id : -1;
+            if (!counters.empty()) note_crossings(b);
+            if (clocked) clock.integrate += omp_get_wtime() - t;
+          }
+        }
+      },
+      laws);
+  if (pending) settle_contacts(setup.time_step_s);
+  sphere.swap(next_sphere);
+  motion.swap(next_motion);
+  share_out(stats, omp_get_wtime() - began, clocks);
+}
+
+bool Simulation::Impl::strayed() const {
+  return std::any_of(books.begin(), books.end(), [](const BlockBook& b) { return b.strayed; });
 }
 
 bool Simulation::Impl::list_is_stale() const {
-  if (!list_valid) return true;
-  double moved2 = 0;
-  for (const BlockBook& b : books) moved2 = std::max(moved2, b.moved2);
-  if (!(moved2 <= 0.25 * skin * skin)) return true;
+  if (!list_valid || strayed()) return true;
+  if (static_cast<double>(step_count - step_of_build) * setup.time_step_s > list_life_s) return true;
   for (const WallModel& w : walls)
-    if (!w.endless && pose_distance(w.wall.motion, w.pose_at_build, w.pose, w.reach_m) > 0.5 * skin) return true;
+    if (!w.endless && pose_distance(w.wall.motion, w.pose_at_build, w.pose, w.reach_m) > w.listed_way_m) return true;
   return false;
 }
 
-void Simulation::Impl::gather_and_kick(double dt) {
-  const std::int64_t n = grains(), nb = blocks();
-  const double half = 0.5 * dt;
-  const Trio gravity = to_trio(setup.gravity_m_s2);
-#pragma omp parallel num_threads(team()) if (team() > 1)
-  {
-    std::vector<WallContact> scratch;
-#pragma omp for schedule(dynamic, 1)
-    for (std::int64_t b = 0; b < nb; ++b) {
-      BlockBook& book = books[static_cast<std::size_t>(b)];
-      book.wall.assign(walls.size(), WallLoad());
-      for (std::int64_t i = b * kGrainsPerBlock; i < std::min(n, (b + 1) * kGrainsPerBlock); ++i) {
-        const std::size_t s = static_cast<std::size_t>(i);
-        Motion& m = motion[s];
-        Load sum;
-        for (std::int32_t k = pairs.incident_first[s]; k < pairs.incident_first[s + 1]; ++k) {
-          const std::uint32_t entry = pairs.incident[static_cast<std::size_t>(k)];
-          const std::size_t p = entry >> 1;
-          if (!pairs.touching[p]) continue;
-          const PairForce& f = pairs.force[p];
-          if (entry & 1)
-            sum.force = sum.force - f.on_i, sum.torque = sum.torque + f.torque_j;
-          else
-            sum.force = sum.force + f.on_i, sum.torque = sum.torque + f.torque_i;
-        }
-        if (wall_list.first[s] < wall_list.first[s + 1]) std::visit([&](const auto& table) { wall_forces(table, s, dt, sum, book, scratch); }, laws);
-        sum.force = sum.force + m.mass * gravity;
-        load[s] = sum;
-        m.velocity = m.velocity + (half * m.inverse_mass) * sum.force;
-        m.spin = m.spin + (half * 2.5 * m.inverse_mass / (sphere[s].r * sphere[s].r)) * sum.torque;
-      }
-    }
-  }
-}
-
-void Simulation::Impl::settle_books(double dt) {
+void Simulation::Impl::settle_contacts(double dt) {
   std::fill(wall_load.begin(), wall_load.end(), WallLoad());
-  double speed2 = 0;
-  GrainId fastest = -1;
-  stats.contact_count = 0;
+  double sides = 0, on_walls = 0;
   for (BlockBook& b : books) {
     for (std::size_t w = 0; w < b.wall.size(); ++w) {
       wall_load[w].force_n += b.wall[w].force_n;
       wall_load[w].torque_n_m += b.wall[w].torque_n_m;
     }
-    if (!(b.speed2 <= speed2)) speed2 = b.speed2, fastest = b.fastest;
     stats.max_overlap = std::max(stats.max_overlap, b.overlap);
-    stats.contact_count += static_cast<double>(b.contacts);
+    sides += static_cast<double>(b.contact_sides), on_walls += static_cast<double>(b.wall_contacts);
     lost.normal += b.loss.normal, lost.tangential_damping += b.loss.tangential_damping;
     lost.sliding += b.loss.sliding, lost.rolling += b.loss.rolling;
     wall_work += b.wall_work;
+  }
+  for (std::size_t w = 0; w < walls.size(); ++w) wall_impulse[w] += dt * wall_load[w].force_n;
+  stats.pair_count = static_cast<double>(pairs.pair_count());
+  stats.contact_count = 0.5 * sides + on_walls;
+}
+
+void Simulation::Impl::settle_motion() {
+  double speed2 = 0;
+  GrainId fastest = -1;
+  for (BlockBook& b : books) {
+    if (!(b.speed2 <= speed2)) speed2 = b.speed2, fastest = b.fastest;
     crossings.insert(crossings.end(), b.crossing.begin(), b.crossing.end());
     b.crossing.clear();
   }
-  for (std::size_t w = 0; w < walls.size(); ++w) wall_impulse[w] += dt * wall_load[w].force_n;
-  stats.pair_count = static_cast<double>(pairs.pair.size());
   const double speed = std::sqrt(speed2);
   if (!(speed <= stats.max_speed_m_s) && fastest >= 0) stats.max_speed_m_s = speed, stats.fastest = fastest;
 }

@@ -31,6 +31,7 @@ struct WallModel {
   Vec3 step_velocity_m_s = Vec3::Zero();  ///< offset change of the last step / dt: the wall's half-step velocity
   double reach_m = 0;                     ///< farthest point of the shape from the rotation centre (infinite for a tilting plane)
   double swing_m = 0;                     ///< farthest vibration excursion: widens the broad phase instead of forcing list rebuilds
+  double listed_way_m = 0;                ///< how far the wall may have moved since the list was built before the list is made anew
   bool endless = false;                   ///< a plane that turns about an axis other than its normal: always a candidate
   bool is_mesh() const { return !triangles.empty(); }
   bool present(double time_s) const { return time_s >= wall.present.on_s && time_s < wall.present.off_s; }

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "dem/case_reader.h"
 #include "line/app/commands.h"
 #include "line/chain/check_line.h"
 namespace venato::line::app {
@@ -19,8 +20,12 @@ int validate_command(const Options& o, Context& context) {
 }
 
 int describe_command(const Options& o) {
-  const auto root = line_config_root(all_stages());
-  const auto text = o.schema ? config_json_schema(root, "venato-line") : describe_config_text(root);
+  const ReadRoot dem_root = [](ObjectReader& r) {
+    dem::Case c;
+    dem::read_case(r, c);
+  };
+  const ReadRoot root = o.dem ? dem_root : line_config_root(all_stages());
+  const auto text = o.schema ? config_json_schema(root, o.dem ? "venato-dem" : "venato-line") : describe_config_text(root);
   std::fputs(text.c_str(), stdout);
   if (!text.ends_with('\n')) std::fputc('\n', stdout);
   return 0;

@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
     return fail(kUsage, e.what());
   } catch (const Interrupted& e) {
     fail(kStopped, e.what());
-    return fail(kStopped, "stopped; run again to resume from the last checkpoint");
+    return fail(kStopped, parsed.options.command == "dem" ? "stopped; the same command with --resume goes on from the last checkpoint"
+                                                          : "stopped; run again to resume from the last checkpoint");
   } catch (const WorkError& e) {
     return fail(kFailed, e.what());
   } catch (const std::bad_alloc&) {

@@ -10,8 +10,10 @@ struct Options {
   std::filesystem::path input, out, vein_map, graphic;
   std::vector<std::string> overrides;
   int threads = 0;  ///< 0 = all cores this process may use
-  bool quiet = false, json_log = false, schema = false;
-  double vein_pitch_mm = 0, graphic_pitch_mm = 0;  ///< 0 = from the file
+  bool quiet = false, json_log = false, schema = false, dem = false;
+  bool resume = false, restart = false, profile = false;  ///< of a DEM case
+  double until_s = 0;                                     ///< of a DEM case; 0 = to its end
+  double vein_pitch_mm = 0, graphic_pitch_mm = 0;         ///< 0 = from the file
 };
 struct Parsed {
   Options options;

@@ -47,14 +47,29 @@ Parsed parse(int argc, const char* const* argv) {
   add_set(*validate, o), add_common(*validate, o);
   validate->footer("Example:\n  venato validate configs/demo_slab.json --set /chain/3/peak_pressure_mpa=45");
 
-  auto* describe = app.add_subcommand("describe-config", "reference of every key of a line config");
+  auto* describe = app.add_subcommand("describe-config", "reference of every key of a line config or a DEM case");
   describe->add_flag("--schema", o.schema, "as JSON Schema for editors");
-  describe->footer("Example:\n  venato describe-config --schema > venato-line.schema.json");
+  describe->add_flag("--dem", o.dem, "of a DEM case instead of a line");
+  describe->footer("Example:\n  venato describe-config --schema > venato-line.schema.json\n  venato describe-config --dem");
 
   auto* dem = app.add_subcommand("dem", "one particle simulation (slice, rig, hopper)");
   dem->add_option("CASE", o.input, "case file (format venato-dem)")->required();
   add_out(*dem, o), add_set(*dem, o), add_common(*dem, o);
-  dem->footer("Example:\n  venato dem configs/dem/lifted_cylinder.json -o out/heap\nWrites HDF5, CSV and, when the case asks for them, ParaView files.");
+  auto* go_on = dem->add_flag("--resume", o.resume, "go on from where an earlier run of this case was stopped (bit for bit); without one, start");
+  dem->add_flag("--restart", o.restart, "throw away what an earlier run of this case left and begin anew")->excludes(go_on);
+  dem->add_option("--until", o.until_s, "stop at this simulated time with results so far and a checkpoint; --resume goes on from it")
+      ->check([](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0 ? std::string() : "'" + text + "' is not a time > 0 [s]";
+      })
+      ->type_name("TIME_S");
+  dem->add_flag("--profile", o.profile, "show how the time is spent, by phase of the step");
+  dem->footer(
+      "Examples:\n  venato dem configs/dem/lifted_cylinder.json -o out/heap\n  venato dem configs/dem/lifted_cylinder.json -o out/heap --until 0.4\n"
+      "  venato dem configs/dem/lifted_cylinder.json -o out/heap --resume\n"
+      "Writes result.h5, kpi.csv, series and counters as CSV, plots (SVG) and, when the case asks for them, pictures (PNG) and ParaView files\n"
+      "(open vtk/grains.pvd). A stopped run (Ctrl-C, kill, --until) leaves a checkpoint in the store; the same case then needs --resume or "
+      "--restart.");
 
   auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab");
   sync->add_option("--vein-map", o.vein_map, "vein map or picture of the slab (TIFF, PNG, JPEG)")->required()->type_name("V");

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/error.h"
+#include "base/io/file_lock.h"
 #include "base/store/store.h"
 namespace venato::line {
 namespace {
@@ -15,6 +16,18 @@ std::filesystem::path checkpoint_folder(const Store& store, const std::string& k
   auto folder = store.checkpoint_path(kKind, key);
   folder += ".d";
   return folder;
+}
+
+/// Two processes that want the same operator must not write into one checkpoint folder: the second waits and takes what the first has made.
+FileLock lock_checkpoints(const std::filesystem::path& folder, const std::string& stage, Context& context) {
+  auto file = folder;
+  file += ".lock";
+  bool said = false;
+  return FileLock::take(file, [&] {
+    if (!said) context.log.info(stage + ": another process is making the same operator, waiting for it");
+    said = true;
+    if (context.stop_requested()) throw Interrupted(stage + ": stopped while waiting for another process");
+  });
 }
 
 std::optional<Operator> from_store(const Store& store, const std::string& key, Log& log) {
@@ -42,11 +55,17 @@ StageOperator obtain_operator(const LineConfig& config, const ConfiguredStage& s
   const auto start = std::chrono::steady_clock::now();
   StageOperator out;
   out.key = operator_key(config, stage);
-  if (auto found = from_store(context.store, out.key, context.log)) {
+  const auto folder = checkpoint_folder(context.store, out.key);
+  auto found = from_store(context.store, out.key, context.log);
+  std::optional<FileLock> lock;
+  if (!found) {
+    lock.emplace(lock_checkpoints(folder, stage.stage.name, context));
+    found = from_store(context.store, out.key, context.log);  // another process may have made it meanwhile
+  }
+  if (found) {
     out.op = std::move(*found);
     out.cached = true;
   } else {
-    const auto folder = checkpoint_folder(context.store, out.key);
     std::error_code ec;
     std::filesystem::create_directories(folder, ec);
     if (ec) throw WorkError("cannot create the checkpoint folder " + folder.string() + ": " + ec.message());

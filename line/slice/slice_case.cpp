@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
 #include "base/rng.h"
 #include "base/units.h"
+#include "dem/coarse_graining/openings.h"
 
 namespace venato::line {
 
@@ -98,15 +98,8 @@ double mean_grain_m(const LineBasics& basics, int powder, double coarse_graining
 
 void warn_if_too_coarse(const LineBasics& basics, int powder, const SliceNumerics& numerics, std::string_view what, double opening_m,
                         std::vector<std::string>& warnings) {
-  const double d = mean_grain_m(basics, powder, numerics.coarse_graining);
-  const double k = 1.4;  // Beverloo's empty-annulus constant (verification.md 8)
-  if (opening_m >= 6 * d) return;
-  const double d1 = d / numerics.coarse_graining;
-  const double loss = opening_m > k * d ? 1 - std::pow((opening_m - k * d) / (opening_m - k * d1), 1.5) : 1.0;
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "%.*s: opening %.1f mm is %.1f coarse-grained diameters (< 6); a slot passes about %.0f %% less than with real grains (Beverloo)",
-                static_cast<int>(what.size()), what.data(), opening_m * 1e3, opening_m / d, 100 * loss);
-  warnings.emplace_back(text);
+  const double grain = dem::mean_volume_grain_m(basics.powders[static_cast<std::size_t>(powder)].psd, 1);
+  std::string text = dem::opening_warning(what, opening_m, true, grain, numerics.coarse_graining);
+  if (!text.empty()) warnings.push_back(std::move(text));
 }
 }  // namespace venato::line

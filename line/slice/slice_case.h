@@ -31,7 +31,7 @@ dem::CaseResult run_slice(const dem::Case& c, const std::filesystem::path& check
 /// Cost of a slice that is fed under level control: it holds about as many grains as it starts with, however many pass through.
 dem::CaseCost estimate_slice_cost(const dem::Case& c, int threads);
 
-/// Warns where coarse grains are too coarse for an opening: fewer than 6 mean diameters of the powder (Beverloo's range), with numbers.
+/// Warns where coarse grains are too coarse for a gap, by the rule of dem/coarse_graining/openings.h.
 void warn_if_too_coarse(const LineBasics& basics, int powder, const SliceNumerics& numerics, std::string_view what, double opening_m,
                         std::vector<std::string>& warnings);
 

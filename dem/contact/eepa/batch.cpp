@@ -1,7 +1,7 @@
 #include "dem/contact/eepa/batch.h"
 
 namespace venato::dem {
-__attribute__((target_clones("avx512f", "avx2", "default"), optimize("no-trapping-math"))) void evaluate_batch(const Eepa*, PairBatch& b, int lanes,
+__attribute__((target_clones("avx512f", "avx2", "default"))) void evaluate_batch(const Eepa*, PairBatch& b, int lanes,
                                                                                                                double dt) {
   evaluate_lanes<Eepa>(
       b, lanes, dt, [](const PairBatch& x, int l) __attribute__((always_inline)) {

@@ -64,8 +64,8 @@ struct Eepa {
     ContactForce f;
     f.normal = constant_force + f_hys + 2 * beta * std::sqrt(g.m_eff * k.normal) * g.approach;
     const double gamma_t = 2 * beta * std::sqrt(g.m_eff * k.tangential), c_roll = 2 * rolling_damping * std::sqrt(g.i_roll * k.rolling);
-    f.tangential = capped_spring(h.spring, g, ratio, g.slide, k.tangential, gamma_t, friction * carried, dt);
-    f.rolling = capped_spring(h.rolling, g, ratio, g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * carried, dt);
+    capped_springs(h.spring, h.rolling, g, ratio, {g.slide, k.tangential, gamma_t, friction * carried},
+                   {g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * carried}, dt, f.tangential, f.rolling);
     h.contact_radius = k.radius;
     return f;
   }

@@ -16,11 +16,14 @@ namespace venato::dem {
 
 struct HertzMindlin {
   static constexpr std::string_view name = "hertz_mindlin_epsd";
-  static constexpr int parameter_count = 6;
+  static constexpr int parameter_count = 9;
   double young_eff, shear_eff;               ///< [Pa] [Pa]
   double beta;                               ///< [-] damping factor, 0 = elastic
   double friction;                           ///< [-]
   double rolling_friction, rolling_damping;  ///< [-] mu_r, eta_r
+  /// Damping coefficients with the contact's own sizes taken out: gamma_n = normal_damper sqrt(a m*), gamma_t = tangential_damper sqrt(a m*),
+  /// C_r = rolling_damper R* sqrt(a I_r). Square roots of material numbers stay out of the contact loop. Set by hertz_mindlin().
+  double normal_damper, tangential_damper, rolling_damper;  ///< [sqrt(Pa)]
 
   struct Stiffness {
     double radius, normal, tangential, rolling;
@@ -31,21 +34,18 @@ struct HertzMindlin {
     return {radius, k_n, 8 * shear_eff * radius, kEpsdStiffness * k_n * arm * arm};
   }
   VENATO_KERNEL Stiffness stiffness(const ContactGeometry& g) const { return stiffness(g, std::sqrt(g.r_eff * g.overlap)); }
-  VENATO_KERNEL double normal_damping(const ContactGeometry& g, const Stiffness& k) const {
-    return kDamping * beta * std::sqrt(1.5 * k.normal * g.m_eff);  // S_n = 2 Y* a = 1.5 k_n
-  }
 
   VENATO_KERNEL ContactForce force(const ContactGeometry& g, ContactHistory& h, double dt) const {
     const Stiffness k = stiffness(g);
-    const double push = k.normal * g.overlap + normal_damping(g, k) * g.approach;
+    const double root_am = std::sqrt(k.radius * g.m_eff);
+    const double push = k.normal * g.overlap + (normal_damper * root_am) * g.approach;
     const double f_n = push > 0 ? push : 0.0;
     const double ratio = unload_ratio(k.radius, h.contact_radius);
-    const double gamma_t = kDamping * beta * std::sqrt(k.tangential * g.m_eff);
-    const double c_roll = 2 * rolling_damping * std::sqrt(g.i_roll * k.rolling);
+    const double c_roll = rolling_damper * g.r_eff * std::sqrt(k.radius * g.i_roll);
     ContactForce f;
     f.normal = f_n;
-    f.tangential = capped_spring(h.spring, g, ratio, g.slide, k.tangential, gamma_t, friction * f_n, dt);
-    f.rolling = capped_spring(h.rolling, g, ratio, g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * f_n, dt);
+    capped_springs(h.spring, h.rolling, g, ratio, {g.slide, k.tangential, tangential_damper * root_am, friction * f_n},
+                   {g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * f_n}, dt, f.tangential, f.rolling);
     h.contact_radius = k.radius;
     return f;
   }
@@ -67,6 +67,9 @@ struct HertzMindlin {
   static constexpr double kDamping = 1.8257418583505538;  ///< 2 sqrt(5/6)
 };
 static_assert(ContactLaw<HertzMindlin>);
+
+/// The law from its six physical numbers.
+HertzMindlin hertz_mindlin(double young_eff, double shear_eff, double beta, double friction, double rolling_friction, double rolling_damping);
 
 /// Law of a material pair; solves the damping factor once. \pre the table has passed check_materials()
 HertzMindlin make_hertz_mindlin(const MaterialTable& table, int material_a, int material_b);

@@ -12,14 +12,14 @@ struct ContactGeometry {
   Trio slide;       ///< [m/s] surface velocity of i relative to j, across the normal; taken with the half-step normal (verification.md 5.8)
   Trio roll;        ///< [rad/s] spin of i minus spin of j, across the normal
   Trio normal;      ///< unit, from i to j
-  Trio turn;        ///< [-] Gibbs vector of the frame rotation since the last step
+  FrameTurn turn;   ///< rotation of the frame since the last step
   double r_eff;     ///< [m]  1/R* = 1/Ri + 1/Rj; wall: R
   double m_eff;     ///< [kg] likewise; wall: m
   double i_roll;    ///< [kg m2] 1/Ir = sum 1/(I + m R^2); wall: 1.4 m R^2
 };
 
 /// Everything a contact remembers between steps. 64 bytes = one cache line. All zero = new contact.
-struct ContactHistory {
+struct alignas(64) ContactHistory {
   Trio spring;            ///< [N] tangential spring force on i
   double contact_radius;  ///< [m] sqrt(R* overlap) (or EEPA's stiffness measure) of the last step: the springs shrink with it
   Trio rolling;           ///< [N m] rolling spring torque on i

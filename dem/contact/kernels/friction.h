@@ -8,25 +8,35 @@ namespace venato::dem {
 /// Ratio by which springs shrink when the contact unloads; 1 for a new or loading contact.
 VENATO_KERNEL double unload_ratio(double radius_now, double radius_before) { return radius_now < radius_before ? radius_now / radius_before : 1.0; }
 
+/// What one capped spring of a contact starts from.
+struct SpringInput {
+  Trio rate;  ///< [m/s] or [rad/s], across the normal
+  double stiffness, damping, cap;
+};
+
 /// Incremental spring, rescaled when the contact unloads (so a closed loop never gains energy: verification.md 5.5), turned rigidly with the contact.
 /// The spring alone is cut to the cap; spring + damping together are cut again without touching the spring; no damping while it slips (rule REC of
 /// verification.md 0: |F| = cap all through gross sliding, 3.7).
+/// Sliding and rolling are done together, so that they share a division: lanes know no branches, both cuts are computed whether needed or not.
 /// \param spring  [N] or [N m], in: of the last step; out: of this step
-/// \param rate    [m/s] or [rad/s], across the normal
-/// \return total on i, |total| <= cap
-VENATO_KERNEL Trio capped_spring(Trio& spring, const ContactGeometry& g, double ratio, const Trio& rate, double stiffness, double damping, double cap,
-                                 double dt) {
-  const double two = 2 / (1 + dot(g.turn, g.turn));
-  const Trio turned = across(rotate(spring, g.turn, two), g.normal);  // projection only removes rounding
-  const Trio trial = ratio * turned - (stiffness * dt) * rate;
-  const double size = length(trial);
-  const bool slips = size > cap;
-  const double cut = slips ? cap / size : 1.0;
-  spring = cut * trial;
-  const double active_damping = slips ? 0.0 : damping;
-  const Trio total = spring - active_damping * rate;
-  const double total_size = length(total);
-  return (total_size > cap ? cap / total_size : 1.0) * total;
+/// \param total   out: on i, |total| <= cap
+VENATO_KERNEL void capped_springs(Trio& slide_spring, Trio& roll_spring, const ContactGeometry& g, double ratio, const SpringInput& slide,
+                                  const SpringInput& roll, double dt, Trio& slide_total, Trio& roll_total) {
+  constexpr double kTiny = 1e-300;  // keeps 0 / 0 out of cuts that are not taken
+  auto turned = [&](const Trio& spring) __attribute__((always_inline)) { return across(rotate(spring, g.turn), g.normal); };  // removes rounding
+  const Trio slide_trial = ratio * turned(slide_spring) - (slide.stiffness * dt) * slide.rate;
+  const Trio roll_trial = ratio * turned(roll_spring) - (roll.stiffness * dt) * roll.rate;
+  const double slide_cap2 = slide.cap * slide.cap, roll_cap2 = roll.cap * roll.cap;
+  const bool slips = dot(slide_trial, slide_trial) > slide_cap2, rolls_through = dot(roll_trial, roll_trial) > roll_cap2;
+  const Trio slide_whole = slide_trial - (slips ? 0.0 : slide.damping) * slide.rate;
+  const Trio roll_whole = roll_trial - (rolls_through ? 0.0 : roll.damping) * roll.rate;
+  const double slide_size2 = dot(slide_whole, slide_whole), roll_size2 = dot(roll_whole, roll_whole);
+  const double slide_size = std::sqrt(slide_size2 > kTiny ? slide_size2 : kTiny), roll_size = std::sqrt(roll_size2 > kTiny ? roll_size2 : kTiny);
+  const double q = 1 / (slide_size * roll_size), slide_cut = slide.cap * (q * roll_size), roll_cut = roll.cap * (q * slide_size);
+  slide_total = (slide_size2 > slide_cap2 ? slide_cut : 1.0) * slide_whole;
+  roll_total = (roll_size2 > roll_cap2 ? roll_cut : 1.0) * roll_whole;
+  slide_spring = Trio{slips ? slide_total.x : slide_trial.x, slips ? slide_total.y : slide_trial.y, slips ? slide_total.z : slide_trial.z};
+  roll_spring = Trio{rolls_through ? roll_total.x : roll_trial.x, rolls_through ? roll_total.y : roll_trial.y, rolls_through ? roll_total.z : roll_trial.z};
 }
 
 /// Energy lost by one capped spring in one step: shrinking / stiffening, slip (both in .first), damping (.second). Each is >= 0.
@@ -36,8 +46,7 @@ struct SpringLoss {
 inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio& total, const ContactGeometry& g, double ratio, const Trio& rate,
                               double stiffness_before, double stiffness, double dt) {
   if (!(stiffness > 0)) return {0, -dot(total, rate) * dt};
-  const double two = 2 / (1 + dot(g.turn, g.turn));
-  const Trio shrunk = ratio * across(rotate(before, g.turn, two), g.normal);
+  const Trio shrunk = ratio * across(rotate(before, g.turn), g.normal);
   const Trio trial = shrunk - (stiffness * dt) * rate;
   const double held = stiffness_before > 0 ? dot(before, before) / (2 * stiffness_before) : 0;
   const double rescaling = held - dot(shrunk, shrunk) / (2 * stiffness);

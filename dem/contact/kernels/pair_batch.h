@@ -7,7 +7,7 @@
 
 namespace venato::dem {
 
-inline constexpr int kBatchWidth = 32;
+inline constexpr int kBatchWidth = 16;
 inline constexpr int kMaxParameters = 9;
 
 /// Raw state of touching pairs; `from_i` = position of j seen from i (periodic image already chosen).
@@ -21,6 +21,7 @@ struct alignas(64) PairBatch {
   double history[8][kBatchWidth];                                               ///< ContactHistory, member by member; in and out
   Lane force_x, force_y, force_z;                                               ///< out: on i [N]
   Lane torque_i_x, torque_i_y, torque_i_z, torque_j_x, torque_j_y, torque_j_z;  ///< out [N m]
+  Lane overlap;                                                                 ///< out [m]
 };
 
 struct PairFrame {
@@ -28,29 +29,45 @@ struct PairFrame {
   double arm_i, arm_j;  ///< [m] R - overlap/2: both torques act at one point, so angular momentum is exact
 };
 
+/// 1/a, 1/b, 1/c from 1/(abc): the divider is what bounds the contact loop, so everything shares one division.
+struct Inverses {
+  double a, b, c;
+};
+VENATO_KERNEL Inverses inverses(double a, double b, double c, double one_over_product) {
+  return {one_over_product * (b * c), one_over_product * (a * c), one_over_product * (a * b)};
+}
+
 VENATO_KERNEL PairFrame pair_frame(const PairBatch& b, int l, double dt) {
   const Trio to_j{b.from_i_x[l], b.from_i_y[l], b.from_i_z[l]}, dv{b.dv_x[l], b.dv_y[l], b.dv_z[l]};
   const Trio wi{b.wi_x[l], b.wi_y[l], b.wi_z[l]}, wj{b.wj_x[l], b.wj_y[l], b.wj_z[l]};
   const double ri = b.radius_i[l], rj = b.radius_j[l];
-  const double distance = length(to_j);
-  const Trio n = (1 / distance) * to_j;
+  // Positions of the last step and of the half step follow exactly from the half-step velocity: no old normal needs storing.
+  const Trio before = to_j - dt * dv, half = to_j - (0.5 * dt) * dv;
+  const double d2 = dot(to_j, to_j), half2 = dot(half, half), distance = std::sqrt(d2);
+  const double both = std::sqrt(dot(before, before) * d2);
+  const double twirl = (0.25 * dt) * dot(wi + wj, to_j);  // spin about the normal: tan(half the angle) = twirl / distance
+  const double im_i = b.inverse_mass_i[l], im_j = b.inverse_mass_j[l], ri2 = ri * ri, rj2 = rj * rj;
+  const double turn2 = both * (both + dot(before, to_j)) * (d2 + twirl * twirl);
+  const double radii = ri + rj, inverse_masses = im_i + im_j, inverse_inertias = im_i * rj2 + im_j * ri2;
+  const double places = distance * half2 * turn2, sizes = radii * inverse_masses * inverse_inertias, q = 1 / (places * sizes);
+  const Inverses over = inverses(distance, half2, turn2, q * sizes), eff = inverses(radii, inverse_masses, inverse_inertias, q * places);
+  const Trio n = over.a * to_j;
   const double gap = ri + rj - distance;
   const double overlap = gap > 0 ? gap : 0.0;  // the touch test compares squares: rounding may leave -1e-20 here
   PairFrame f;
   f.arm_i = ri - 0.5 * overlap;
   f.arm_j = rj - 0.5 * overlap;
-  // Positions of the last step and of the half step follow exactly from the half-step velocity: no old normal needs storing.
-  const Trio before = to_j - dt * dv, half = to_j - (0.5 * dt) * dv;
-  const Trio n_half = (1 / length(half)) * half;
   f.g.overlap = overlap;
   f.g.approach = -dot(dv, n);
-  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, (1 / distance) * half) - across(dv, n_half);  // `half` is a chord: exact for rigid turns
+  const Trio across_half = dv - (dot(dv, half) * over.b) * half;                // across the half-step normal
+  f.g.slide = cross(f.arm_i * wi + f.arm_j * wj, over.a * half) - across_half;  // `half` is a chord: exact for rigid turns
   f.g.roll = across(wi - wj, n);
   f.g.normal = n;
-  f.g.turn = frame_turn(before, to_j, n, 0.5 * dot(wi + wj, n) * dt);
-  f.g.r_eff = ri * rj / (ri + rj);
-  f.g.m_eff = 1 / (b.inverse_mass_i[l] + b.inverse_mass_j[l]);
-  f.g.i_roll = 1.4 / (b.inverse_mass_i[l] / (ri * ri) + b.inverse_mass_j[l] / (rj * rj));
+  f.g.turn = frame_turn(before, to_j, n, 2 * twirl * over.a, both);
+  f.g.turn.scale = d2 * over.c;
+  f.g.r_eff = ri * rj * eff.a;
+  f.g.m_eff = eff.b;
+  f.g.i_roll = 1.4 * (ri2 * rj2) * eff.c;
   return f;
 }
 
@@ -69,6 +86,7 @@ VENATO_KERNEL void evaluate_lanes(PairBatch& b, int lanes, double dt, const Make
     const ContactForce c = law.force(f.g, h, dt);
     const Trio force = c.tangential - c.normal * f.g.normal;
     const Trio lever = cross(f.g.normal, c.tangential);
+    b.overlap[l] = f.g.overlap;
     b.force_x[l] = force.x, b.force_y[l] = force.y, b.force_z[l] = force.z;
     b.torque_i_x[l] = f.arm_i * lever.x + c.rolling.x;
     b.torque_i_y[l] = f.arm_i * lever.y + c.rolling.y;

@@ -30,17 +30,34 @@ VENATO_KERNEL Trio across(const Trio& a, const Trio& n) { return a - dot(a, n) *
 inline Trio to_trio(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 to_vec3(const Trio& t) { return {t.x, t.y, t.z}; }
 
-/// Rotation as a Gibbs vector g = axis * tan(angle / 2): exact (length-preserving) and without sines.
-VENATO_KERNEL Trio rotate(const Trio& v, const Trio& g, double two_over_one_plus_g2) {
-  const Trio a = cross(g, v);
-  return v + two_over_one_plus_g2 * (a + cross(g, a));
+/// Rotation of a contact frame as a quaternion (cosine, vector) of any length: exact (length-preserving), without sines and with one division for
+/// all vectors that it turns. \param scale 2 / (cosine^2 + |vector|^2); 0 turns nothing.
+struct FrameTurn {
+  Trio vector;
+  double cosine = 0, scale = 0;
+};
+VENATO_KERNEL Trio rotate(const Trio& v, const FrameTurn& t) {
+  const Trio a = cross(t.vector, v);
+  return v + t.scale * (t.cosine * a + cross(t.vector, a));
 }
-/// Rotation that turns the contact frame in one step: the normal from the direction of `from` to that of `to` by the shortest way, after which
-/// the frame spins by `angle` = rate * dt about the (new) unit normal n, as the midpoint rule has it: tan(turn / 2) = angle / 2. With the half-step
-/// normal of pair_frame() a pair that turns as one rigid body then keeps its springs exactly, whatever the step.
-VENATO_KERNEL Trio frame_turn(const Trio& from, const Trio& to, const Trio& n, double angle) {
-  const Trio shortest = (1 / (std::sqrt(dot(from, from) * dot(to, to)) + dot(from, to))) * cross(from, to);
-  const Trio spin = (0.5 * angle) * n;
-  return shortest + spin + cross(spin, shortest);  // composition of Gibbs vectors; their dot product is 0
+/// Turn of the frame in one step: the normal from the direction of `from` to that of `to` by the shortest way, after which the frame spins by
+/// `angle` = rate * dt about the (new) unit normal n, as the midpoint rule has it: tan(turn / 2) = angle / 2. With the half-step normal of
+/// pair_frame() a pair that turns as one rigid body then keeps its springs exactly, whatever the step.
+/// \param from_to |from| |to|
+/// \return vector and cosine; the scale is left to the caller: (cosine^2 + |vector|^2) = 2 from_to cosine (1 + angle^2 / 4)
+VENATO_KERNEL FrameTurn frame_turn(const Trio& from, const Trio& to, const Trio& n, double angle, double from_to) {
+  FrameTurn t;
+  const Trio shortest = cross(from, to);
+  const double spin = 0.5 * angle;
+  t.cosine = from_to + dot(from, to);
+  t.vector = shortest + (spin * t.cosine) * n + spin * cross(n, shortest);  // product of the two quaternions; shortest . n = 0
+  return t;
+}
+/// The same with its scale, where a division and a root more do not matter.
+VENATO_KERNEL FrameTurn frame_turn(const Trio& from, const Trio& to, const Trio& n, double angle) {
+  const double both = std::sqrt(dot(from, from) * dot(to, to));
+  FrameTurn t = frame_turn(from, to, n, angle, both);
+  t.scale = 1 / (both * t.cosine * (1 + 0.25 * angle * angle));
+  return t;
 }
 }  // namespace venato::dem

@@ -139,8 +139,8 @@ TEST(Csv, columns_and_rows) {
   EXPECT_EQ(second, "0.5,2,2000,2000000,2,2,2000,0.4,4,5,6,0,0,0");
   const std::string counter = counter_csv(small_case(), small_result().records[0]);
   EXPECT_NE(counter.find("\n0.103,1,2,3,0,0,0,1000,1000,grey,3,0,0,0,0\n"), std::string::npos) << counter.substr(0, 600);
-  const std::string kpis = kpi_csv({{"a", 1, std::nan(""), "s", "what, it is"}});
-  EXPECT_EQ(kpis, "name,value,standard_error,unit,description\na,1,,s,\"what, it is\"\n");
+  const std::string kpis = kpi_csv({{"a", 1, std::nan(""), "s", "what, it is", "6 wedges"}});
+  EXPECT_EQ(kpis, "name,value,standard_error,unit,description,error_from\na,1,,s,\"what, it is\",6 wedges\n");
 }
 
 TEST(HeightProfile, velocity_and_solid_fraction_of_a_moving_row) {

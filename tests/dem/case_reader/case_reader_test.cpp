@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "dem/coarse_graining/openings.h"
 #include "dem/material_reader.h"
+#include "dem/rigs/rig_api.h"
 #include "dem/run_case.h"
 
 namespace venato::dem {
@@ -38,11 +40,70 @@ TEST(CaseReader, every_ready_case_is_valid_and_has_a_cost) {
     const Case c = load_case(entry.path());
     EXPECT_EQ(c.name, entry.path().stem().string());
     const CaseCost cost = estimate_cost(c, 2);
-    EXPECT_TRUE(cost.seconds > 0 && cost.seconds < 60) << entry.path() << " " << cost.seconds;  // ready cases are small
+    EXPECT_TRUE(cost.seconds > 0 && cost.seconds < 300) << entry.path() << " " << cost.seconds;  // ready cases take minutes
   }
   EXPECT_GE(cases, 2);
 }
 
+TEST(CaseReader, narrow_places_and_rigs_lead_to_warnings) {
+  // slot_hopper's rig states its 6 mm slot; 0.39 mm grains times 2.
+  const auto [c, outcome] = read();
+  ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
+  ASSERT_EQ(c.openings.size(), 1u);
+  EXPECT_NEAR(c.openings[0].size_m, 6e-3, 1e-15);
+  EXPECT_TRUE(c.openings[0].slot);
+  ASSERT_EQ(coarse_graining_warnings(c).size(), 1u);
+  const auto fine = read({{"/coarse_graining", "1"}});
+  EXPECT_TRUE(coarse_graining_warnings(fine.c).empty());
+  const auto stated =
+      read({{"/coarse_graining", "1.5"}, {"/smallest_opening_mm", "2"}, {"/smallest_opening_form", "hole"}, {"/layer_thickness_mm", "4"}});
+  ASSERT_TRUE(stated.outcome.ok()) << issue_list(stated.outcome);
+  const auto warnings = coarse_graining_warnings(stated.c);
+  ASSERT_EQ(warnings.size(), 2u);  // the slot of the rig is wide enough now: 10 grains, 0.93 of the flow
+  EXPECT_NE(warnings[0].find("smallest opening of 2 mm"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("layer of 4 mm"), std::string::npos) << warnings[1];
+}
+TEST(CaseReader, rigs_read_their_keys_and_refuse_what_does_not_fit) {
+  for (const RigDescriptor& d : all_rigs()) EXPECT_FALSE(d.help.empty()) << d.name;
+  EXPECT_EQ(all_rigs().size(), 5u);
+  const struct {
+    const char *file, *pointer, *value, *expected;
+  } bad[] = {{"slot_hopper.json", "/rig/counter", "\"slott\"", "there is no counter 'slott'"},
+             {"slot_hopper.json", "/rig/openings/0/to_s", "9", "closes after the end of the run"},
+             {"slot_hopper.json", "/rig/openings/0/to_s", "0.31", "before the flow has settled"},
+             {"slot_hopper.json", "/rig/kind", "\"repose\"", "is not one of"},
+             {"slot_hopper.json", "/rig/bulk_region/high_mm", "[8, 10, 300]", "the box from"},
+             {"lifted_cylinder.json", "/rig/fit_to", "0.12", "is not above fit_from"},
+             {"rotating_drum.json", "/rig/speeds/2/to_s", "9", "ends after the end of the run"},
+             {"rotating_drum.json", "/rig/speeds/0/to_s", "0.95", "fewer than 16 frames"},
+             {"tapped_density.json", "/rig/taps", "60", "after the end of the run"},
+             {"tapped_density.json", "/walls/0/motion/tapping/period_s", "0.02", "too short"},
+             {"inclined_wall.json", "/rig/wall", "\"front\"", "is not a plane that rotates"},
+             {"inclined_wall.json", "/rig/wall", "\"board\"", "there is no wall 'board'"}};
+  for (const auto& b : bad) {
+    const auto [c, outcome] = read({{b.pointer, b.value}}, b.file);
+    EXPECT_NE(issue_list(outcome).find(b.expected), std::string::npos) << b.file << " " << b.pointer << ": " << issue_list(outcome);
+  }
+}
+TEST(CaseReader, tapping_is_a_track_of_lifts_and_falls) {
+  const auto [c, outcome] = read({}, "tapped_density.json");
+  ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
+  const auto& track = c.walls[0].motion.track;
+  ASSERT_FALSE(track.empty());
+  EXPECT_EQ(track.size(), c.walls[1].motion.track.size());
+  EXPECT_NEAR(track.front().time_s, 0.3, 1e-12);
+  double highest = 0, fastest = 0;
+  for (std::size_t k = 1; k < track.size(); ++k) {
+    EXPECT_GT(track[k].time_s, track[k - 1].time_s);
+    highest = std::max(highest, track[k].offset_m.z());
+    fastest = std::max(fastest, (track[k - 1].offset_m.z() - track[k].offset_m.z()) / (track[k].time_s - track[k - 1].time_s));
+  }
+  EXPECT_NEAR(highest, 1e-3, 1e-12);
+  // Free fall over 1 mm ends at sqrt(2 g h); the last of 12 straight pieces is 1/24 slower.
+  EXPECT_NEAR(fastest / std::sqrt(2 * 9.80665 * 1e-3), 1 - 1.0 / 24, 1e-6);
+  EXPECT_EQ(track.back().offset_m, Vec3(Vec3::Zero()));  // it rests on its floor in the end
+  EXPECT_LT(track.back().time_s, 0.3 + 40 * 0.08);
+}
 TEST(CaseReader, slot_hopper_in_si) {
   const auto [c, outcome] = read();
   ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
@@ -77,7 +138,7 @@ TEST(CaseReader, slot_hopper_in_si) {
   EXPECT_EQ(c.counters[0].axis, 2);
   EXPECT_TRUE(c.counters[0].remove);
   EXPECT_NEAR(c.counters[0].position_m, 2e-3, 1e-15);
-  ASSERT_EQ(c.snapshots.size(), 1u);
+  ASSERT_EQ(c.snapshots.size(), 2u);  // its own, and one frame that the rig takes the bulk density from
   EXPECT_EQ(c.vtk_every_s, 0);
   EXPECT_EQ(c.time_step_s, 0);
 }
@@ -115,13 +176,23 @@ TEST(CaseReader, shapes_motions_rain_and_laws) {
   EXPECT_NEAR(c.vtk_every_s, 0.02, 1e-15);
 }
 
+TEST(CaseReader, dense_fill) {
+  const auto [c, outcome] =
+      read({{"/fills/0", R"({"low_mm":[0,-10,8],"high_mm":[8,10,20],"mass_fractions":[1],"packing":"dense","solid_fraction":0.6})"}});
+  ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
+  ASSERT_EQ(c.fills.size(), 1u);
+  EXPECT_EQ(c.fills[0].solid_fraction, 0.6);
+  EXPECT_EQ(c.fills[0].mass_kg, 0);
+  EXPECT_EQ(read().c.fills[0].solid_fraction, 0);  // lattice unless asked
+}
+
 TEST(CaseReader, cylinder_and_plane) {
   const auto [c, outcome] = read({}, "lifted_cylinder.json");
   ASSERT_TRUE(outcome.ok()) << issue_list(outcome);
   EXPECT_EQ(std::get<PlaneShape>(c.walls[0].shape).normal, Vec3(0, 0, 1));
   const auto& tube = std::get<CylinderShape>(c.walls[1].shape);
   EXPECT_NEAR(tube.radius_m, 9e-3, 1e-15);
-  EXPECT_NEAR(tube.length_m, 50e-3, 1e-15);
+  EXPECT_NEAR(tube.length_m, 82e-3, 1e-15);
   EXPECT_TRUE(tube.inside);
 }
 
@@ -191,6 +262,12 @@ TEST(CaseReader, each_mistake_is_reported_where_it_is) {
            {"/fills/0/mass_fractions", "[0.5, 0.5]", "/fills/0/mass_fractions", "1 powders"},
            {"/fills/0/high_mm", "[8, 11, 95]", "/fills/0/low_mm", "the box from"},
            {"/fills/0/high_mm", "[8, -11, 86]", "/fills/0/high_mm", "along y"},
+           {"/fills/0/packing", "\"random\"", "/fills/0/packing", ""},
+           {"/fills/0/packing", "\"dense\"", "/fills/0/solid_fraction", "at least 0.1"},
+           {"/fills/0/solid_fraction", "0.6", "/fills/0/solid_fraction", "no meaning for a lattice"},
+           {"/fills/0/solid_fraction", "0.75", "/fills/0/solid_fraction", "0.74"},
+           {"/fills/0", R"({"low_mm":[0,-10,8],"high_mm":[8,10,20],"mass_fractions":[1],"packing":"dense","solid_fraction":0.6,"mass_g":1})",
+            "/fills/0/mass_g", "no meaning for a dense packing"},
            {"/fills", "[]", "", "no grains"},
            {"/counters/0/position_mm", "95", "/counters/0/position_mm", "outside the box"},
            {"/counters/0/axis", "\"w\"", "/counters/0/axis", ""},

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.h"
@@ -60,6 +61,69 @@ double last(const std::vector<double>& v) { return v.back(); }
 void expect_book(const CaseResult& r) {
   EXPECT_NEAR(r.mass_put_in_kg, r.mass_removed_kg + r.mass_lost_box_kg + r.mass_left_kg,
               1e-13 * r.mass_put_in_kg);  // rounding of a few thousand sums
+}
+
+/// Bed on a floor, periodic in x and y, made by a dense fill.
+Case dense_bed() {
+  Case c;
+  c.name = "dense_bed";
+  c.box = {Vec3(0, 0, -0.001), Vec3(0.004, 0.004, 0.01), {true, true, false}};
+  c.materials = scene::powder(0.3, 0.4, 0.1, 0.3);
+  c.powders = {{"white", {4e-4, 2.5, 3e-4, 6e-4}, 0}};
+  c.duration_s = 0.01;
+  c.series.every_s = 0.0025;
+  c.seed = 4;
+  c.walls = {scene::plane()};
+  Fill fill;
+  fill.high = Vec3(0.004, 0.004, 0.005);
+  fill.powder_mass_fractions = {1};
+  fill.solid_fraction = 0.58;
+  c.fills = {fill};
+  return c;
+}
+
+TEST(RunCase, DenseFillIsABedAtOnce) {
+  Bench b;
+  const Case c = dense_bed();
+  const CaseResult r = run_case(c, {}, b.context);
+  const double mass = 0.58 * 0.004 * 0.004 * 0.005 * c.materials.materials[0].density_kg_m3;
+  EXPECT_NEAR(r.mass_put_in_kg, mass, 0.5 * 1900 * std::numbers::pi / 6 * std::pow(6e-4, 3));  // nearest whole number of grains: half the largest
+  expect_book(r);
+  EXPECT_EQ(r.mass_lost_box_kg, 0);
+  // A bed that settles from 0.58 to 0.62 at most (random close packing, a floor) sinks 0.32 mm at its top: sqrt(2 g h) = 80 mm/s. Free fall would have
+  // 98 mm/s by now.
+  EXPECT_LT(r.max_speed_seen_m_s, 0.08);
+  EXPECT_LT(r.max_overlap_seen, 0.01);
+  EXPECT_GT(last(r.series.mean_contacts), 2);
+  b.context.threads = 2;
+  const CaseResult two = run_case(c, {}, b.context);
+  ASSERT_EQ(two.final_state.size(), r.final_state.size());
+  for (std::size_t k = 0; k < r.final_state.size(); ++k) ASSERT_EQ(two.final_state[k].position_m, r.final_state[k].position_m) << k;
+}
+
+TEST(RunCase, DenseFillLeavesRoomForWallsAndEarlierGrains) {
+  Bench b;
+  Case c = dense_bed();
+  c.duration_s = 1e-4;
+  c.walls.push_back(scene::plane(Vec3(0, 0.002, 0.0025), Vec3(0, 1, 1).normalized()));  // cuts the region in two: about half is left
+  c.fills.push_back(c.fills[0]);                                                        // the same region again: next to nothing fits
+  const CaseResult r = run_case(c, {}, b.context);
+  const double whole = 0.58 * 0.004 * 0.004 * 0.005 * c.materials.materials[0].density_kg_m3;
+  EXPECT_GT(r.mass_put_in_kg, 0.35 * whole);
+  EXPECT_LT(r.mass_put_in_kg, 0.55 * whole);
+  EXPECT_LT(r.max_overlap_seen, 0.01);
+
+  Case impossible = dense_bed();
+  impossible.fills[0].solid_fraction = 0.72;
+  try {
+    run_case(impossible, {}, b.context);
+    FAIL() << "packed to 0.72";
+  } catch (const UsageError& e) {
+    EXPECT_NE(std::string(e.what()).find("'dense_bed': fill 0: dense packing"), std::string::npos) << e.what();
+  }
+  impossible.fills[0].solid_fraction = 0.6;
+  impossible.fills[0].mass_kg = 1e-3;
+  EXPECT_THROW(run_case(impossible, {}, b.context), UsageError);
 }
 
 TEST(RunCase, FillsFlowsCountsAndClosesItsBook) {
@@ -166,6 +230,35 @@ TEST(RunCase, ResumedAndThreadedRunsGiveTheSameBytes) {
   EXPECT_GE(interruptions, 3);
   EXPECT_EQ(bytes_of(*resumed), bytes_of(whole));
   EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
+}
+TEST(RunCase, UntilStopsThereAndGoesOnBitForBit) {
+  Bench b;
+  std::filesystem::create_directories(b.folder);
+  const Case c = rainy_hopper();
+  const CaseResult whole = run_case(c, {}, b.context);
+  EXPECT_TRUE(whole.complete);
+  RunOptions options;
+  options.checkpoint = b.folder / "case.ckpt";
+  options.until_s = 0.0123;
+  const CaseResult part = run_case(c, options, b.context);
+  EXPECT_FALSE(part.complete);
+  EXPECT_NEAR(part.end_time_s, 0.0123, 1.01 * part.time_step_s);
+  EXPECT_GE(part.end_time_s, 0.0123 * (1 - 1e-12));
+  expect_book(part);
+  ASSERT_TRUE(std::filesystem::exists(options.checkpoint));
+  // Asking for an earlier time does not go back, and does not change what comes after.
+  options.until_s = 0.005;
+  EXPECT_NEAR(run_case(c, options, b.context).end_time_s, part.end_time_s, 1e-15);
+  options.until_s = 0.02;
+  EXPECT_FALSE(run_case(c, options, b.context).complete);
+  options.until_s = 0;
+  b.context.threads = 2;
+  const CaseResult resumed = run_case(c, options, b.context);
+  EXPECT_TRUE(resumed.complete);
+  EXPECT_EQ(bytes_of(resumed), bytes_of(whole));
+  EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
+  options.until_s = 1;  // beyond the end: an ordinary run
+  EXPECT_EQ(bytes_of(run_case(c, options, b.context)), bytes_of(whole));
 }
 TEST(RunCase, CheckpointOfAnotherCaseIsRefused) {
   Bench b;

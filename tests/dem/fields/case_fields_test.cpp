@@ -18,7 +18,12 @@ const std::filesystem::path kCase = std::filesystem::path(VENATO_SOURCE_DIR) / "
 const char* const kFields = R"({"width_mm":0.6,"grid_mm":[8,2,1.5],"from_s":0.02,"to_s":0.04,"every_s":0.004,"diffusivity":true})";
 
 Case short_case(const std::string& fields = kFields) {
-  return load_case(kCase, {{"/coarse_graining", "3.3"}, {"/duration_s", "0.045"}, {"/snapshots", "[]"}, {"/fields", fields}});
+  return load_case(kCase, {{"/coarse_graining", "3.3"},
+                           {"/duration_s", "0.045"},
+                           {"/snapshots", "[]"},
+                           {"/fields", fields},
+                           {"/rig/openings", R"([{"size_mm":6,"from_s":0.01,"to_s":0.04}])"},
+                           {"/rig/settle_s", "0.005"}});  // the rig's window inside the short run
 }
 
 struct Bench {

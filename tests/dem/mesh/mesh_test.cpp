@@ -121,5 +121,37 @@ TEST(ExtrudeProfile, refuses_profiles_that_are_none) {
   EXPECT_THROW(extrude_profile({{0, 0}, {1, 0}}, 1, 1), UsageError);
   EXPECT_THROW(extrude_profile({{0, 0}, {1, 0}}, nan, 1), UsageError);
 }
+
+double area_of(const MeshShape& mesh, Vec3* vector = nullptr) {
+  double area = 0;
+  Vec3 sum = Vec3::Zero();
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 n = 0.5 * (t.b - t.a).cross(t.c - t.a);
+    area += n.norm(), sum += n;
+  }
+  if (vector) *vector = sum;
+  return area;
+}
+TEST(Ring, has_the_area_and_place_of_its_circles) {
+  const Vec3 centre(1, 2, 3), normal(1, -2, 2);
+  Vec3 direction;
+  const MeshShape ring = make_ring(centre, normal, 0.3, 0.5);
+  // The polygons have the circles' areas: rounding only.
+  EXPECT_NEAR(area_of(ring, &direction), M_PI * (0.25 - 0.09), 1e-12);
+  EXPECT_NEAR(direction.normalized().cross(normal.normalized()).norm(), 0, 1e-12);  // all in one plane, one way round
+  EXPECT_NEAR(direction.norm(), M_PI * (0.25 - 0.09), 1e-12);
+  for (const Triangle& t : ring.triangles)
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      EXPECT_NEAR((p - centre).dot(normal.normalized()), 0, 1e-12);
+      const double r = (p - centre).norm();
+      EXPECT_TRUE(std::abs(r - 0.3) < 1e-3 || std::abs(r - 0.5) < 1.5e-3) << r;  // 64 corners: sqrt(x / sin x) - 1 = 0.16 %
+    }
+  EXPECT_NEAR(area_of(make_ring(centre, normal, 0, 0.5, 12)), M_PI * 0.25, 1e-12);
+  EXPECT_THROW(make_ring(centre, Vec3::Zero(), 0, 1), UsageError);
+  EXPECT_THROW(make_ring(centre, normal, 0.5, 0.5), UsageError);
+  EXPECT_THROW(make_ring(centre, normal, -0.1, 0.5), UsageError);
+  EXPECT_THROW(make_ring(centre, normal, 0.1, std::nan("")), UsageError);
+  EXPECT_THROW(make_ring(centre, normal, 0.1, 0.5, 3), UsageError);
+}
 }  // namespace
 }  // namespace venato::dem

@@ -96,6 +96,11 @@ TEST(Invariance, RollingWithScaledGravity) {
     EXPECT_NEAR(r.spin * cg / one.spin, 1, 1e-9) << cg;
   }
   EXPECT_NEAR(one.time, 7 * v0 / (5 * .1 * 9.81), .05 * one.time);  // it did stop
+  // Negative control: mu_r given as a length (mu_r R kept, so mu_r / cg) is not invariant; neither is gravity left as it is.
+  const RollOut as_length = roll_out(scaled(bead, 2), v0, 9.81 / 2, .1 / 2, dt * 2, 40000),
+                heavy = roll_out(scaled(bead, 2), v0, 9.81, .1, dt * 2, 40000);
+  EXPECT_GT(std::abs(as_length.spin * 2 / one.spin - 1), 1e-2);
+  EXPECT_GT(std::abs(heavy.spin * 2 / one.spin - 1), 1e-2);
 }
 /// (d) gravity as it is: the stop laws 7 v0 / (5 mu_r g) and 7 v0^2 / (10 mu_r g) do not know the radius. 0.5 %: not self-similar, the overlap grows
 /// with cg.

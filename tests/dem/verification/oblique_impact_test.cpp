@@ -86,11 +86,29 @@ TEST(ChungOoi, Test4ObliqueImpact) {
     EXPECT_NEAR(slow.e_t / row[1], 1, 3e-3) << row[0];  // the independent integrator belongs to the same table
   }
 }
-/// The small angles tell the variants apart: the independent integrator with a displacement spring gives the other column, far from the engine.
+/// The small angles tell the variants apart: the independent integrator with a displacement spring gives the other published column, which the check
+/// above (0.3 % of the rescaled column) rejects.
 TEST(ChungOoi, Test4SmallAnglesDiscriminateTheSpring) {
-  EXPECT_NEAR(test4_slow(2, true).e_t, .9858, 3e-3);
-  EXPECT_NEAR(test4_slow(5, true).e_t, .9508, 3e-3);
-  EXPECT_NEAR(test4_slow(10, true).e_t, .7022, 3e-3);
+  const double table[][3] = {{2, .9858, .8705}, {5, .9508, .8583}, {10, .7022, .7145}};
+  for (const auto& row : table) {
+    const double e_t = test4_slow(row[0], true).e_t;
+    EXPECT_NEAR(e_t, row[1], 3e-3) << row[0];
+    EXPECT_GT(std::abs(e_t / row[2] - 1), 3e-3) << row[0];
+  }
+}
+/// Against the measurement (Kharaz, Gorham & Salman 2001, as distributed with MFIX-DEM's case 05): from 20 deg on tangential restitution
+/// 5 % (MFIX's limit), spin 8 %: by so much the measured spins scatter about any smooth curve. At 10 deg, in sticking, the measured spheres keep less
+/// than any Hertz-Mindlin variant gives them: 11 % there.
+TEST(ChungOoi, Test4AgainstTheMeasurement) {
+  auto at = [](double deg) {
+    const double angle = deg * kDegree;
+    const Impact hit = hit_plane(kAluminiumOxide, {.98, .092, 0, 0}, 3.9 * std::cos(angle), 3.9 * std::sin(angle), 0, 1000);
+    return rebound(hit.a.velocity_m_s, hit.a.spin_rad_s, angle, kAluminiumOxide.radius);
+  };
+  const double e_t[][2] = {{9.63, .673}, {20.1, .596}, {30.2, .688}, {39.3, .772}, {49.5, .847}, {59.8, .902}};
+  for (const auto& row : e_t) EXPECT_NEAR(at(row[0]).e_t / row[1], 1, row[0] < 15 ? .11 : .05) << row[0];
+  const double spin[][2] = {{31.1, 612.6}, {39, 595.5}, {50.2, 452.9}, {60.2, 381.3}};
+  for (const auto& row : spin) EXPECT_NEAR(-at(row[0]).spin / row[1], 1, .08) << row[0];
 }
 /// Sticking and sliding against the paper's own DEM curve (digitised, 1-2 %): 2.5 %. Below 10 deg the paper has the displacement spring.
 TEST(ChungOoi, Test4AgainstThePapersCurve) {

@@ -16,8 +16,10 @@ struct Model {
   bool half_step_normal = true;       ///< false: the standard scheme, history grows along the full-step normal
   bool cap_rolling_damping = true;    ///< false: spring torque capped, damping torque added on top of it until mobilised
   bool tangential_damping = true;
-  bool twist = false;          ///< spring turned about the normal by half the sphere's spin about it (mean spin of the two bodies)
-  bool rolling_spring = true;  ///< false: CDT, a constant torque against the spin
+  bool twist = false;           ///< spring turned about the normal by half the sphere's spin about it (mean spin of the two bodies)
+  bool rolling_spring = true;   ///< false: CDT, a constant torque against the spin
+  double wall_lever_share = 0;  ///< torque arm on the plane R - share * overlap; 1 = lever R - d of some codes
+  double torsion = 0;           ///< > 0: rolling torque not taken across the normal (friction about the normal as well)
 };
 struct Fixed {
   Vec3 centre = Vec3::Zero();
@@ -48,7 +50,8 @@ struct Body {
       return;
     }
     ++touching;
-    const double d = -gap, r_eff = f.radius > 0 ? radius * f.radius / (radius + f.radius) : radius, arm = f.radius > 0 ? radius - d / 2 : radius;
+    const double d = -gap, r_eff = f.radius > 0 ? radius * f.radius / (radius + f.radius) : radius,
+                 arm = radius - (f.radius > 0 ? .5 : model.wall_lever_share) * d;
     const double k_n = 4.0 / 3 * model.young_eff * std::sqrt(r_eff * d), k_t = 8 * model.shear_eff * std::sqrt(r_eff * d);
     const double c = 2 * std::sqrt(5.0 / 6) * model.beta;
     const Vec3 n = normal_to(f, x), across = model.half_step_normal ? normal_to(f, x - 0.5 * dt * v) : n;
@@ -72,11 +75,11 @@ struct Body {
     if (model.rolling_friction > 0) torque += rolling(h, n, k_n, r_eff, model.rolling_friction * r_eff * f_n, dt);
   }
   Vec3 rolling(Memory& h, const Vec3& n, double k_n, double r_eff, double limit, double dt) const {
-    const Vec3 roll = w - w.dot(n) * n;
+    const Vec3 roll = w - (1 - model.torsion) * w.dot(n) * n;
     if (!model.rolling_spring) return roll.norm() > 0 ? Vec3(-limit / roll.norm() * roll) : Vec3(Vec3::Zero());
     const double k_r = 2.25 * k_n * std::pow(model.rolling_friction * r_eff, 2);
     if (k_r < h.k_r) h.roll *= k_r / h.k_r;
-    h.roll = carried(h.roll, n) - k_r * dt * roll;
+    h.roll = (model.torsion > 0 ? h.roll : carried(h.roll, n)) - k_r * dt * roll;
     h.k_r = k_r;
     if (h.roll.norm() > limit) return h.roll *= limit / h.roll.norm();
     const Vec3 m = h.roll - 2 * model.rolling_damping * std::sqrt(1.4 * mass * radius * radius * k_r) * roll;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "base/error.h"
 #include "base/store/store.h"
 #include "tests/base/temp_folder.h"
@@ -91,6 +94,48 @@ TEST(Operators, SecondTimeComesFromTheStore) {
   EXPECT_TRUE(second.cached);
   EXPECT_EQ(first.op.weight, second.op.weight);
   EXPECT_EQ(first.op.figures, second.op.figures);
+}
+
+TEST(Operators, TwoAtTheSameTimeMakeItOnce) {
+  Bench t;
+  auto stage = t.config.chain[0];
+  std::atomic<int> made{0};
+  std::atomic<bool> inside{false}, go{false};
+  const auto make = stage.stage.characterise;
+  stage.stage.characterise = [&](const LineBasics& b, const std::filesystem::path& folder, Context& context) {
+    ++made, inside = true;
+    while (!go) std::this_thread::yield();
+    return make(b, folder, context);
+  };
+  StageOperator first, second;
+  std::thread one([&] { first = obtain_operator(t.config, stage, t.context); });
+  while (!inside) std::this_thread::yield();
+  std::thread two([&] { second = obtain_operator(t.config, stage, t.context); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // long enough to get past a missing lock
+  EXPECT_EQ(made, 1);
+  go = true;
+  one.join(), two.join();
+  EXPECT_EQ(made, 1);
+  EXPECT_FALSE(first.cached);
+  EXPECT_TRUE(second.cached);
+  EXPECT_EQ(first.op.weight, second.op.weight);
+}
+TEST(Operators, WaitingForAnotherProcessCanBeStopped) {
+  Bench t;
+  auto stage = t.config.chain[0];
+  std::atomic<bool> inside{false}, go{false};
+  const auto make = stage.stage.characterise;
+  stage.stage.characterise = [&](const LineBasics& b, const std::filesystem::path& folder, Context& context) {
+    inside = true;
+    while (!go) std::this_thread::yield();
+    return make(b, folder, context);
+  };
+  std::thread one([&] { obtain_operator(t.config, stage, t.context); });
+  while (!inside) std::this_thread::yield();
+  t.stop = true;
+  EXPECT_THROW(obtain_operator(t.config, stage, t.context), Interrupted);
+  go = true;
+  one.join();
 }
 
 TEST(Operators, AnotherStageConfigIsAnotherOperator) {

@@ -91,7 +91,7 @@ TEST(Slices, WarnsWithNumbersWhenAnOpeningIsTooNarrowForTheCoarseGrains) {
   EXPECT_TRUE(warnings.empty());
   warn_if_too_coarse(b, 0, n, "slot", 0.004, warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("slot: opening 4.0 mm"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("slot of 4 mm is "), std::string::npos) << warnings[0];
 }
 }  // namespace
 }  // namespace venato::line

@@ -1,0 +1,295 @@
+#include "dem/simulation/pair_lanes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "dem/simulation/pair_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace venato::dem::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+static_assert(kLanes == 1 || kLanes == 2 || kLanes == 4 || kLanes == 8, "fixed-size vectors only");
+
+// Rows (one grain's or contact's numbers side by side) to lanes (one number of kLanes rows side by side) and back. Whole rows are loaded and stored,
+// turning happens in registers.
+#if HWY_TARGET == HWY_SCALAR  // a CPU without SSSE3: one lane, nothing to turn
+HWY_INLINE void load_rows4(const double* const* row, V* c) {
+  for (int k = 0; k < 4; ++k) c[k] = hn::LoadU(D(), row[0] + k);
+}
+HWY_INLINE void load_rows8(const double* const* row, V* c) {
+  for (int k = 0; k < 8; ++k) c[k] = hn::LoadU(D(), row[0] + k);
+}
+HWY_INLINE void store_rows8(const V* c, double* const* row) {
+  for (int k = 0; k < 8; ++k) hn::StoreU(c[k], D(), row[0] + k);
+}
+#else
+/// Turns 2 x 2 numbers inside every 128-bit block.
+HWY_INLINE void turn2(V& a, V& b) {
+  const V low = hn::InterleaveLower(D(), a, b), high = hn::InterleaveUpper(D(), a, b);
+  a = low, b = high;
+}
+#if HWY_MAX_BYTES == 16
+constexpr int kSquare = 2;  // rows that are turned together
+HWY_INLINE void turn(V* v) { turn2(v[0], v[1]); }
+#else
+/// Turns 2 x 2 neighbouring blocks: [a0 a1 …], [b0 b1 …] -> [a0 b0 …], [a1 b1 …].
+HWY_INLINE void turn_blocks(V& a, V& b) {
+#if HWY_MAX_BYTES == 32
+  const V low = hn::ConcatLowerLower(D(), b, a), high = hn::ConcatUpperUpper(D(), b, a);
+#else
+  const V low = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a), high = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
+#endif
+  a = low, b = high;
+}
+/// Turns 4 x 4 numbers in every 256 bits.
+HWY_INLINE void turn4(V* v) {
+  turn2(v[0], v[1]), turn2(v[2], v[3]);
+  turn_blocks(v[0], v[2]), turn_blocks(v[1], v[3]);
+}
+#if HWY_MAX_BYTES == 32
+constexpr int kSquare = 4;
+HWY_INLINE void turn(V* v) { turn4(v); }
+#else
+constexpr int kSquare = 8;
+HWY_INLINE void turn(V* v) {
+  turn4(v), turn4(v + 4);
+  for (int k = 0; k < 4; ++k) {
+    const V low = hn::ConcatLowerLower(D(), v[k + 4], v[k]), high = hn::ConcatUpperUpper(D(), v[k + 4], v[k]);
+    v[k] = low, v[k + 4] = high;
+  }
+}
+#endif
+#endif
+HWY_INLINE void load_rows4(const double* const* row, V* c) {
+#if HWY_MAX_BYTES == 64
+  const hn::Half<D> half;
+  for (int l = 0; l < 4; ++l) c[l] = hn::Combine(D(), hn::LoadU(half, row[l + 4]), hn::LoadU(half, row[l]));
+  turn4(c);
+#else
+  for (int h = 0; h < 4; h += kSquare) {
+    for (int l = 0; l < kSquare; ++l) c[h + l] = hn::LoadU(D(), row[l] + h);
+    turn(c + h);
+  }
+#endif
+}
+HWY_INLINE void load_rows8(const double* const* row, V* c) {
+  for (int h = 0; h < 8; h += kSquare) {
+    for (int l = 0; l < kSquare; ++l) c[h + l] = hn::LoadU(D(), row[l] + h);
+    turn(c + h);
+  }
+}
+HWY_INLINE void store_rows8(const V* column, double* const* row) {
+  V c[8];
+  for (int k = 0; k < 8; ++k) c[k] = column[k];
+  for (int h = 0; h < 8; h += kSquare) {
+    turn(c + h);
+    for (int l = 0; l < kSquare; ++l) hn::StoreU(c[h + l], D(), row[l] + h);
+  }
+}
+#endif
+HWY_INLINE V nearest(V x, double length, double inverse) {
+  const D d;
+  return hn::Sub(x, hn::Mul(hn::Set(d, length), hn::Round(hn::Mul(x, hn::Set(d, inverse)))));
+}
+/// Centres of j seen from i, and radii.
+struct Apart {
+  V x, y, z, ri, rj;
+};
+HWY_INLINE Apart apart(const PairView& v, const double* const* i, const double* const* j) {
+  V a[4], b[4];
+  load_rows4(i, a), load_rows4(j, b);
+  Apart p{hn::Sub(b[0], a[0]), hn::Sub(b[1], a[1]), hn::Sub(b[2], a[2]), a[3], b[3]};
+  if (v.periodic) {
+    p.x = nearest(p.x, v.length[0], v.inverse_length[0]);
+    p.y = nearest(p.y, v.length[1], v.inverse_length[1]);
+    p.z = nearest(p.z, v.length[2], v.inverse_length[2]);
+  }
+  return p;
+}
+
+constexpr std::size_t kFetch = 48;  // pairs
+
+void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
+  const D d;
+  const auto* sphere = reinterpret_cast<const double*>(v.sphere);
+  std::size_t n = 0;
+  changed.count = 0;
+  for (std::size_t p = from; p < to; p += 8) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = p + kFetch; k < p + kFetch + 8; ++k) __builtin_prefetch(v.sphere + v.second(std::min(k, to - 1)));
+    for (int g = 0; g < 8; g += kLanes) {
+      const double *i[kLanes], *j[kLanes];
+      for (int l = 0; l < kLanes; ++l) {
+        const std::size_t q = p + static_cast<std::size_t>(g + l);
+        i[l] = sphere + 4 * v.first(q), j[l] = sphere + 4 * v.second(q);
+      }
+      const Apart a = apart(v, i, j);
+      const V d2 = hn::Add(hn::Add(hn::Mul(a.x, a.x), hn::Mul(a.y, a.y)), hn::Mul(a.z, a.z)), reach = hn::Add(a.ri, a.rj);
+      std::uint8_t mask[8] = {};
+      hn::StoreMaskBits(d, hn::Lt(d2, hn::Mul(reach, reach)), mask);
+      bits |= static_cast<std::uint32_t>(mask[0]) << g;
+    }
+    const std::size_t valid = std::min<std::size_t>(8, to - p);
+    bits &= (1u << valid) - 1;
+    std::uint64_t before;
+    std::memcpy(&before, v.touching + p, 8);  // the list is padded
+    if (valid < 8) before &= (std::uint64_t{1} << (8 * valid)) - 1;
+    // One byte per bit, bit k to byte k (two halves: a multiplication spreads four bits without carries).
+    const std::uint64_t here = ((bits & 15) * 0x00204081ull & 0x01010101ull) | (((bits >> 4) * 0x00204081ull & 0x01010101ull) << 32);
+    for (std::uint64_t other = here ^ before; other != 0; other &= other - 1)
+      changed.pair[changed.count++] = static_cast<std::uint32_t>(p) + static_cast<std::uint32_t>(std::countr_zero(other)) / 8;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+      now.pair[n] = static_cast<std::uint32_t>(p) + k;
+      n += bits >> k & 1u;
+    }
+  }
+  now.count = n;
+}
+
+void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) {
+  const D d;
+  const auto* sphere = reinterpret_cast<const double*>(v.sphere);
+  const auto* motion = reinterpret_cast<const double*>(v.motion);
+  const auto* history = reinterpret_cast<const double*>(v.history);
+  for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
+    const double *is[kLanes], *js[kLanes], *im[kLanes], *jm[kLanes], *h[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const std::size_t p = pair[std::min(g + l, count - 1)], i = v.first(p), j = v.second(p);
+      is[l] = sphere + 4 * i, js[l] = sphere + 4 * j, im[l] = motion + 8 * i, jm[l] = motion + 8 * j, h[l] = history + 8 * std::size_t{v.place[p]};
+    }
+    const Apart a = apart(v, is, js);
+    hn::Store(a.x, d, b.from_i_x + g), hn::Store(a.y, d, b.from_i_y + g), hn::Store(a.z, d, b.from_i_z + g);
+    hn::Store(a.ri, d, b.radius_i + g), hn::Store(a.rj, d, b.radius_j + g);
+    V i[8], j[8];
+    load_rows8(im, i), load_rows8(jm, j);
+    hn::Store(hn::Sub(j[0], i[0]), d, b.dv_x + g), hn::Store(hn::Sub(j[1], i[1]), d, b.dv_y + g), hn::Store(hn::Sub(j[2], i[2]), d, b.dv_z + g);
+    hn::Store(i[3], d, b.wi_x + g), hn::Store(i[4], d, b.wi_y + g), hn::Store(i[5], d, b.wi_z + g);
+    hn::Store(j[3], d, b.wj_x + g), hn::Store(j[4], d, b.wj_y + g), hn::Store(j[5], d, b.wj_z + g);
+    hn::Store(i[6], d, b.inverse_mass_i + g), hn::Store(j[6], d, b.inverse_mass_j + g);
+    load_rows8(h, i);
+    for (int c = 0; c < 8; ++c) hn::Store(i[c], d, b.history[c] + g);
+  }
+}
+
+constexpr int kParts = 8 / kLanes;  // vectors of a LoadRow or Motion
+struct Row8 {
+  V part[kParts];
+};
+HWY_INLINE Row8 load_row(const double* p) {
+  Row8 r;
+  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Load(D(), p + k * kLanes);
+  return r;
+}
+HWY_INLINE void add_row(double* sum, const double* p) {
+  for (int k = 0; k < kParts; ++k) hn::Store(hn::Add(hn::Load(D(), sum + k * kLanes), hn::Load(D(), p + k * kLanes)), D(), sum + k * kLanes);
+}
+
+std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
+  const D d;
+  auto* history = reinterpret_cast<double*>(v.history);
+  std::uint32_t deep = 0;
+  for (int g = 0; g < count; g += kLanes) {
+    const int valid = std::min(kLanes, count - g);
+    double* h[kLanes];
+    for (int l = 0; l < kLanes; ++l) h[l] = history + 8 * std::size_t{v.place[pair[std::min(g + l, count - 1)]]};
+    V c[8];
+    for (int k = 0; k < 8; ++k) c[k] = hn::Load(d, b.history[k] + g);
+    store_rows8(c, h);
+    alignas(64) LoadRow first[kLanes], second[kLanes];
+    double *to_first[kLanes], *to_second[kLanes];
+    for (int l = 0; l < kLanes; ++l) to_first[l] = first[l].v, to_second[l] = second[l].v;
+    c[0] = hn::Load(d, b.force_x + g), c[1] = hn::Load(d, b.force_y + g), c[2] = hn::Load(d, b.force_z + g);
+    c[3] = hn::Load(d, b.torque_i_x + g), c[4] = hn::Load(d, b.torque_i_y + g), c[5] = hn::Load(d, b.torque_i_z + g);
+    c[6] = c[7] = hn::Zero(d);
+    store_rows8(c, to_first);
+    for (int k = 0; k < 3; ++k) c[k] = hn::Neg(c[k]);  // Newton's third law
+    c[3] = hn::Load(d, b.torque_j_x + g), c[4] = hn::Load(d, b.torque_j_y + g), c[5] = hn::Load(d, b.torque_j_z + g);
+    store_rows8(c, to_second);
+    for (int l = 0; l < valid; ++l) {
+      const std::size_t p = pair[g + l], i = v.own[p], j = v.second(p) - v.block_start;
+      add_row(v.sum[i].v, first[l].v);
+      add_row(v.sum[std::min(j, static_cast<std::size_t>(kGrainsPerBlock))].v, second[l].v);
+    }
+    if (v.kept != nullptr)
+      for (int l = 0; l < valid; ++l) v.kept[v.place[pair[g + l]]] = first[l];
+    const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
+    std::uint8_t mask[8] = {};
+    hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);
+    deep |= (static_cast<std::uint32_t>(mask[0]) & ((1u << valid) - 1)) << g;
+  }
+  return deep;
+}
+
+/// v += (half / m) F + half g, w += (half / I) T; the inverse mass and inertia that stand behind them get zeros.
+HWY_INLINE void kick(Row8& m, const Row8& load, const Row8& rate, const Row8& fall) {
+  for (int k = 0; k < kParts; ++k) m.part[k] = hn::Add(hn::Add(m.part[k], hn::Mul(rate.part[k], load.part[k])), fall.part[k]);
+}
+
+void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) {
+  const D d;
+  const double dt = v.time_step, half = 0.5 * dt;
+  LoadRow fall, none, ones, ones_below;
+  for (int k = 0; k < 3; ++k) fall.v[k] = half * v.gravity.v[k], ones.v[k] = ones_below.v[k + 3] = 1;
+  const Row8 force_lanes = load_row(ones.v), torque_lanes = load_row(ones_below.v);
+  const Row8 falls = load_row(fall.v), rests = load_row(none.v);
+  for (std::size_t s = start; s < end; ++s) {
+    const Sphere& from = v.sphere[s];
+    const double inverse_mass = v.motion[s].inverse_mass, inverse_inertia = v.motion[s].inverse_inertia;
+    Row8 m = load_row(reinterpret_cast<const double*>(v.motion + s)), load, rate;
+    if (v.sum != nullptr) {
+      load = load_row(v.sum[s - start].v);
+    } else {
+      const Load& l = v.load[s];
+      LoadRow row;
+      row.v[0] = l.force.x, row.v[1] = l.force.y, row.v[2] = l.force.z, row.v[3] = l.torque.x, row.v[4] = l.torque.y, row.v[5] = l.torque.z;
+      load = load_row(row.v);
+    }
+    // Vectors from vectors: a row put together from numbers in memory would wait for them to arrive there.
+    for (int k = 0; k < kParts; ++k)
+      rate.part[k] =
+          hn::Add(hn::Mul(hn::Set(d, half * inverse_mass), force_lanes.part[k]), hn::Mul(hn::Set(d, half * inverse_inertia), torque_lanes.part[k]));
+    const Row8& fall_here = inverse_mass > 0 ? falls : rests;
+    if (v.sum != nullptr) kick(m, load, rate, fall_here);
+    kick(m, load, rate, fall_here);
+    auto* motion = reinterpret_cast<double*>(v.next_motion + s);
+    for (int k = 0; k < kParts; ++k) hn::Store(m.part[k], d, motion + k * kLanes);
+    const double vx = motion[0], vy = motion[1], vz = motion[2];
+    Sphere& to = v.next_sphere[s];
+    to.x = from.x + ((vx * dt + v.snap[0]) - v.snap[0]);
+    to.y = from.y + ((vy * dt + v.snap[1]) - v.snap[1]);
+    to.z = from.z + ((vz * dt + v.snap[2]) - v.snap[2]);
+    to.r = from.r;
+    if (s < v.anchored) {
+      const double allowance = static_cast<double>(v.anchor[s].allowance);
+      book.strayed |= !(v.anchor[s].strayed2(to.x, to.y, to.z, v.listed_for) <= allowance * allowance);  // NaN strays
+    }
+    const double speed2 = vx * vx + vy * vy + vz * vz;
+    if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = s;  // NaN wins
+  }
+}
+}  // namespace venato::dem::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace venato::dem {
+HWY_EXPORT(find_touching);
+HWY_EXPORT(load_lanes);
+HWY_EXPORT(add_lanes);
+HWY_EXPORT(move_grains);
+void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChunk& now, PairChunk& changed) {
+  HWY_DYNAMIC_DISPATCH(find_touching)(v, from, to, now, changed);
+}
+void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) { HWY_DYNAMIC_DISPATCH(load_lanes)(v, pair, count, b); }
+void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) { HWY_DYNAMIC_DISPATCH(move_grains)(v, start, end, book); }
+std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
+  return HWY_DYNAMIC_DISPATCH(add_lanes)(v, pair, count, b, watch);
+}
+}  // namespace venato::dem
+#endif
