@@ -42,7 +42,6 @@ TEST(Compression, plates_and_contacts_carry_the_same_stress) {
       if (f.grid.centre_m(2, c) > 3.5 * kD && f.grid.centre_m(2, c) < height - 3.5 * kD)
         middle -= f.contact_stress_pa[static_cast<std::size_t>(c)][8], n += 1;
     middle /= n;
-    if (std::getenv("VENATO_PRINT")) std::printf("%g floor %g top %g field %g\n", height, floor, top, middle);
     worst_field = std::max(worst_field, std::abs(middle / (0.5 * (floor + top)) - 1));
     worst_plates = std::max(worst_plates, std::abs(floor / top - 1));
     inertial = std::max(inertial, speed / height * kD / std::sqrt(top / kDensity));

@@ -34,14 +34,13 @@ struct Flow {
   double height_m = 0, tan_theta = 0, inertial = 0, inertial_spread = 0, friction = 0, solid = 0, solid_spread = 0, ratio_error = 0, bagnold_r2 = 0,
          speed_change = 0;
 };
-double mean_speed(const Simulation& sim) {
+double flow_speed(const Simulation& sim) {
   double v = 0, n = 0;
   for (const GrainState& g : sim.grains())
     if (!g.frozen) v += g.velocity_m_s.y(), n += 1;
   return v / n;
 }
 
-const bool print = std::getenv("VENATO_PRINT") != nullptr;
 Flow flow(double angle_deg) {
   Simulation sim = chute(angle_deg, 0.5);
   sim.step(120000);  // 150 sqrt(d/g)
@@ -49,13 +48,13 @@ Flow flow(double angle_deg) {
   box.low = Vec3(0, 0, 0), box.high = Vec3(kWidth, kLength, 20 * kD);
   box.periodic[0] = box.periodic[1] = true;
   ContinuumSums sums(make_continuum_grid(box, Vec3(1, 1, 0.5 * kD), 0.75 * kD));
-  const double early = mean_speed(sim);
+  const double early = flow_speed(sim);
   constexpr int samples = 800;
   double speed = 0;
   for (int k = 0; k < samples; ++k) {
     sim.step(100);
     sums.add(sim.grains(), sim.contacts());
-    speed += mean_speed(sim) / samples;
+    speed += flow_speed(sim) / samples;
   }
   const ContinuumFields f = continuum_fields(sums);
   const auto stress = [&](int k, std::size_t component) {
@@ -82,9 +81,6 @@ Flow flow(double angle_deg) {
     core_i.push_back(f.gradient_1_s[c][5] * kD / std::sqrt(pressure / kDensity));
     x.push_back(std::pow(r.height_m, 1.5) - std::pow(r.height_m - z, 1.5)), u.push_back(f.velocity_m_s[c].y());
     r.friction += std::abs(shear) / pressure;
-    if (print)
-      std::printf("%.2f phi %.4f I %.4f ratio %.4f u %.4f P %.1f\n", z / kD, core_phi.back(), core_i.back(), std::abs(shear) / pressure / r.tan_theta,
-                  u.back(), pressure);
   }
   const auto n = static_cast<double>(core_phi.size());
   if (n < 5) return Flow{};
@@ -130,7 +126,7 @@ TEST(InclinedFlow, stops_below_the_angle_of_stopping) {
   Simulation sim =
       chute(17, 0.5);  // thicker layers than this one stop at 19 deg, and h_stop falls with the angle (Weinhart et al. 2012: 17.6 deg at infinity)
   sim.step(120000);
-  EXPECT_LT(std::abs(mean_speed(sim)), 1e-4 * std::sqrt(kGravity * kD));
+  EXPECT_LT(std::abs(flow_speed(sim)), 1e-4 * std::sqrt(kGravity * kD));
 }
 }  // namespace
 }  // namespace venato::dem::bulk

@@ -67,6 +67,11 @@ inline double fastest(const Simulation& sim) {
   for (const GrainState& g : sim.grains()) v = std::max(v, g.velocity_m_s.norm());
   return v;
 }
+inline double mean_speed(const Simulation& sim) {
+  double v = 0;
+  for (const GrainState& g : sim.grains()) v += g.velocity_m_s.norm() / static_cast<double>(sim.grain_count());
+  return v;
+}
 inline double top(const Simulation& sim) {
   double z = -1e9;
   for (const GrainState& g : sim.grains()) z = std::max(z, g.position_m.z());

@@ -47,7 +47,7 @@ std::vector<double> tapped(double friction, double rolling) {
   std::vector<double> phi{density(sim)};
   for (int k = 0; k < kTaps; ++k) {
     sim.step(std::llround((period + pause) / kStep));
-    EXPECT_LT(fastest(sim), 0.05) << "tap " << k;
+    EXPECT_LT(mean_speed(sim), 0.01) << "tap " << k;  // at rest again, but for single rattlers; the floor swings at 0.16 m/s
     phi.push_back(density(sim));
   }
   return phi;
