@@ -51,13 +51,16 @@ class FlowGrid {
       if (product <= most) break;
     }
     cells_.resize(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
-    for (std::size_t k = 0; k < in.spheres.size(); ++k) {
-      const Sphere& s = in.spheres[k];
-      const std::int64_t x = along(0, s.x), y = along(1, s.y), z = along(2, s.z);
-      const std::size_t c = static_cast<std::size_t>((z * count_[1] + y) * count_[0] + x);
-      cell_of_[k] = static_cast<std::int32_t>(c);
-      cells_[c].mean = cells_[c].mean + in.velocity[k];
-      ++cells_[c].count;
+    const std::int64_t grains = static_cast<std::int64_t>(in.spheres.size());
+#pragma omp parallel for schedule(static) num_threads(in.threads) if (in.threads > 1)
+    for (std::int64_t k = 0; k < grains; ++k) {
+      const Sphere& s = in.spheres[static_cast<std::size_t>(k)];
+      cell_of_[static_cast<std::size_t>(k)] = static_cast<std::int32_t>((along(2, s.z) * count_[1] + along(1, s.y)) * count_[0] + along(0, s.x));
+    }
+    for (std::size_t k = 0; k < in.spheres.size(); ++k) {  // in order: the same sums for any number of threads
+      FlowCell& c = cells_[static_cast<std::size_t>(cell_of_[k])];
+      c.mean = c.mean + in.velocity[k];
+      ++c.count;
     }
     for (FlowCell& c : cells_)
       if (c.count > 0) c.mean = (1.0 / c.count) * c.mean;
@@ -183,7 +186,10 @@ ReachPlan plan_reach(const ReachInput& in) {
     }
     const double fall = 0.5 * in.gravity_m_s2 * life * life;
     double farthest = 0, beyond = 0;
-    for (std::size_t k = 0; k < n; ++k) {
+    const std::int64_t grains = static_cast<std::int64_t>(n);
+#pragma omp parallel for schedule(static) reduction(max : farthest, beyond) num_threads(in.threads) if (in.threads > 1)
+    for (std::int64_t i = 0; i < grains; ++i) {
+      const std::size_t k = static_cast<std::size_t>(i);
       const FlowCell& cell = flow.at(k);
       const Sphere& s = in.spheres[k];
       const Trio own = in.velocity[k] - cell.mean;

@@ -40,6 +40,7 @@ struct ReachInput {
   double gravity_m_s2 = 0, time_step_s = 0;
   double fixed_skin_m = 0;  ///< > 0: classical list
   ReachExperience experience;
+  int threads = 1;
 };
 
 struct ReachPlan {

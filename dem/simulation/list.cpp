@@ -10,14 +10,19 @@ namespace venato::dem {
 namespace {
 constexpr double kWallWay = 0.1;  // of the mean radius: the least that walls may move before the list is made anew
 
-template <class T>
-void permute(std::vector<T>& v, const std::vector<std::int32_t>& source) {
-  std::vector<T> out;
-  out.reserve(source.size());
-  for (const std::int32_t k : source) out.push_back(v[static_cast<std::size_t>(k)]);
-  v.swap(out);
+/// f(k) for 0 … n - 1, side by side.
+template <class F>
+void for_each(std::int64_t n, int threads, const F& f) {
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::int64_t k = 0; k < n; ++k) f(static_cast<std::size_t>(k));
 }
 
+template <class T>
+void permute(std::vector<T>& v, const std::vector<std::int32_t>& source, int threads) {
+  std::vector<T> out(source.size());
+  for_each(static_cast<std::int64_t>(source.size()), threads, [&](std::size_t k) { out[k] = v[static_cast<std::size_t>(source[k])]; });
+  v.swap(out);
+}
 }  // namespace
 
 std::array<double, 3> Simulation::Impl::wrap_correction(const Sphere& s) const {
@@ -40,24 +45,28 @@ void Simulation::Impl::rebuild_list() {
   if (list_valid) reach_experience.list_ended(strayed());
   // 1. living grains, wrapped into the box
   const std::int64_t all = grains();
-#pragma omp parallel for schedule(static) num_threads(team()) if (team() > 1)
-  for (std::int64_t i = 0; i < all; ++i) {
-    const std::size_t s = static_cast<std::size_t>(i);
+  const int threads = team();
+  for_each(all, threads, [&](std::size_t s) {
     const std::array<double, 3> turns = wrap_correction(sphere[s]);
     double* p[3] = {&sphere[s].x, &sphere[s].y, &sphere[s].z};
     for (std::size_t a = 0; a < 3; ++a) {
       *p[a] -= turns[a] * box.length[a];
       card[s].image[a] += static_cast<std::int32_t>(turns[a]);
     }
-  }
+  });
   std::vector<std::int32_t> alive;
-  std::vector<Sphere> spheres;
-  std::vector<Trio> velocity;
-  alive.reserve(sphere.size()), spheres.reserve(sphere.size()), velocity.reserve(sphere.size());
+  alive.reserve(sphere.size());
   for (std::size_t s = 0; s < sphere.size(); ++s)
-    if (!card[s].removed) alive.push_back(static_cast<std::int32_t>(s)), spheres.push_back(sphere[s]), velocity.push_back(motion[s].velocity);
+    if (!card[s].removed) alive.push_back(static_cast<std::int32_t>(s));
+  const std::int64_t n = static_cast<std::int64_t>(alive.size());
+  std::vector<Sphere> spheres(alive.size());
+  std::vector<Trio> velocity(alive.size());
+  for_each(n, threads, [&](std::size_t k) {
+    const std::size_t s = static_cast<std::size_t>(alive[k]);
+    spheres[k] = sphere[s], velocity[k] = motion[s].velocity;
+  });
   // 2. how far everybody may go, and spatial order
-  ReachPlan plan = plan_reach({spheres, velocity, box, setup.gravity_m_s2.norm(), setup.time_step_s, setup.skin_m, reach_experience});
+  ReachPlan plan = plan_reach({spheres, velocity, box, setup.gravity_m_s2.norm(), setup.time_step_s, setup.skin_m, reach_experience, threads});
   list_life_s = plan.life_s, farthest_m = plan.farthest_m;
   std::vector<std::int32_t> order;
   if (setup.brute_force_neighbours) {
@@ -65,26 +74,28 @@ void Simulation::Impl::rebuild_list() {
     std::iota(order.begin(), order.end(), 0);
   } else {
     for (std::size_t k = 0; k < spheres.size(); ++k) spheres[k].r = plan.reach[k];
-    order = grid.build(spheres, box, team());
+    order = grid.build(spheres, box, threads);
   }
-  permute(plan.anchor, order);
-  permute(plan.reach, order);
+  permute(plan.anchor, order, threads);
+  permute(plan.reach, order, threads);
   anchor.swap(plan.anchor), reach.swap(plan.reach);
   for (std::int32_t& k : order) k = alive[static_cast<std::size_t>(k)];  // new slot -> old slot
   // Into the arrays that the next pass will overwrite anyway.
   next_sphere.resize(order.size()), next_motion.resize(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    next_sphere[k] = sphere[static_cast<std::size_t>(order[k])], next_motion[k] = motion[static_cast<std::size_t>(order[k])];
+  for_each(n, threads, [&](std::size_t k) {
+    const std::size_t was = static_cast<std::size_t>(order[k]);
+    next_sphere[k] = sphere[was], next_motion[k] = motion[was];
+  });
   sphere.swap(next_sphere), motion.swap(next_motion);
   load.resize(order.size());
-  permute(card, order);
-  for (std::size_t s = 0; s < card.size(); ++s) slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s);
+  permute(card, order, threads);
+  for_each(n, threads, [&](std::size_t s) { slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s); });
   one_material = std::all_of(card.begin(), card.end(), [&](const GrainCard& c) { return c.material == card.front().material; });
   any_frozen = std::any_of(card.begin(), card.end(), [](const GrainCard& c) { return c.frozen != 0; });
   // 3. pairs and walls, histories carried
   std::vector<GrainId> ids(card.size());
   std::transform(card.begin(), card.end(), ids.begin(), [](const GrainCard& c) { return c.id; });
-  pair_builder.rebuild(pairs, {sphere, anchor, reach, list_life_s, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, team()});
+  pair_builder.rebuild(pairs, {sphere, anchor, reach, list_life_s, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, threads});
   rebuild_walls(order);
   listed = grains();
   step_of_build = step_count;
@@ -102,7 +113,7 @@ void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) 
   std::vector<double> way(sphere.size());  // of each grain while the list is good
   for (std::size_t s = 0; s < sphere.size(); ++s) {
     const Anchor& a = anchor[s];
-    const double drift = std::isfinite(list_life_s) ? list_life_s * std::hypot(a.drift_x, a.drift_y, a.drift_z) : 0.0;
+    const double drift = std::isfinite(list_life_s) ? list_life_s * length({a.drift_x, a.drift_y, a.drift_z}) : 0.0;
     way[s] = 1.000001 * (static_cast<double>(a.allowance) + drift);
     reach_max = std::max(reach_max, sphere[s].r + way[s]), r_sum += sphere[s].r;
   }
