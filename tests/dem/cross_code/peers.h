@@ -14,8 +14,9 @@ namespace venato::dem::peers {
 
 /// Both decks: E = 10 MPa, nu = 0.25, rho = 2000, e = 0.4, mu = 0.5, eta_r = 0.3 for grains and walls.
 inline MaterialTable materials(double rolling_friction) { return {{{"grain", 2000, 1e7, 0.25}}, {{0.4, 0.5, rolling_friction, 0.3}}}; }
-inline SimulationSetup setup(double rolling_friction, double time_step_s, int threads) {
+inline SimulationSetup setup(double rolling_friction, double time_step_s, int threads, LawKind law) {
   SimulationSetup s;
+  s.law = law;
   s.materials = materials(rolling_friction);
   s.time_step_s = time_step_s;
   s.gravity_m_s2 = Vec3(0, 0, -9.81);
@@ -40,6 +41,7 @@ inline GrainInput sphere(const Vec3& at, double diameter_m) {
 struct Hopper {
   double depth_m = 12e-3;  ///< periodic y; the deck's. The lattice has rows 1.3333 mm apart
   double time_step_s = 6e-6, fill_s = 0.222, discharge_s = 0.405;
+  LawKind law = LawKind::hertz_mindlin_epsd;
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -56,7 +58,7 @@ struct HopperRun {
 };
 
 inline HopperRun run_hopper(const Hopper& h) {
-  SimulationSetup s = setup(0.1, h.time_step_s, h.threads);
+  SimulationSetup s = setup(0.1, h.time_step_s, h.threads, h.law);
   s.box.low = Vec3(-25.5e-3, 0, -10e-3), s.box.high = Vec3(25.5e-3, h.depth_m, 160e-3);
   s.box.periodic[1] = true;
   Simulation sim(s);
@@ -142,13 +144,14 @@ struct Heap {
   /// The deck's 1e-5 s is 26 % of the Rayleigh time. Ours: 20 %, since our damping (solved for the measured restitution) is stronger than the
   /// textbook's and such long steps keep a bed rattling.
   double time_step_s = 7.6e-6;
+  LawKind law = LawKind::hertz_mindlin_epsd;
   std::uint64_t seed = 1;
   int threads = 1;
 };
 inline constexpr double kHeapFill_s = 0.15, kHeapLift_s = 0.45, kHeapRest_s = 0.15, kHeapDiameter_m = 1e-3, kCylinderRadius_m = 11e-3;
 
 inline std::vector<GrainState> run_heap(const Heap& h) {
-  Simulation sim(setup(h.rolling_friction, h.time_step_s, h.threads));
+  Simulation sim(setup(h.rolling_friction, h.time_step_s, h.threads, h.law));
   sim.add_wall(wall(PlaneShape{}));
   const double pitch = 1.12e-3;
   const int m = static_cast<int>(kCylinderRadius_m / pitch) + 1;
