@@ -8,11 +8,11 @@
 
 namespace venato::dem {
 namespace {
-// configs/dem/slot_hopper.json (4500 grains, filling, rest and discharge): 6.1e6 per core second on a shared 2020s server core; 560 grains 8.7e6.
-// Larger cases fall out of the caches, so the estimate stays below. Used for estimates only, never for results.
-constexpr double kParticleStepsPerCoreSecond = 5e6;
-// State, sorting buffers (~ 400 B) and about 6 listed contacts of ~ 150 B each.
-constexpr double kBytesPerGrain = 1300;
+// configs/dem/slot_hopper.json (4500 grains, filling, rest and discharge): 9.7e6 per core second on a shared 2020s server core; beds of 100,000 and a
+// million grains 8e6 to 13e6 (tests/bench/RESULTS.md). Used for estimates only, never for results.
+constexpr double kParticleStepsPerCoreSecond = 8e6;
+// State, lists, histories, and what building a list needs: tests/bench/RESULTS.md.
+constexpr double kBytesPerGrain = 1500;
 constexpr double kBytesPerSnapshotGrain = 8 + 24 + 24 + 4 + 4;
 constexpr double kBytesPerCounterRecord = 160;
 constexpr double kLatticePitch = 1.02;  // diameters per place of a loose row
