@@ -81,9 +81,9 @@ bool at_rest(const Rest& r, int n) {
   return r.late.kinetic <= 1e-10 && r.late.twisting <= n / 100 && r.crept <= 1e-4 * kGrain.radius && r.imbalance <= 1e-6;
 }
 
-/// 2000 grains, 7.5e4 steps to settle and 6e4 more (half a minute; the full case asks for 1e5 grains and 1e6 steps) at the production step, 20 %
-/// Rayleigh.
-TEST(Rest, TwoThousandGrainsStayPut) { EXPECT_TRUE(at_rest(rest(2000, .5, .2, 60000, 60000), 2000)); }
+/// 2000 grains, 4.5e5 steps to settle and 6e4 more (the full case asks for 1e5 grains and 1e6 steps) at the production step, 20 % Rayleigh. The last
+/// single grain that still rocks decides how long settling takes: a sixth of that is enough for some packings and not for others.
+TEST(Rest, TwoThousandGrainsStayPut) { EXPECT_TRUE(at_rest(rest(2000, .5, .2, 360000, 60000), 2000)); }
 /// The same check on a small bed, at the lowest restitution that the production step stands (.44 is the powder's), and for a strongly damped one at
 /// less than that. Negative control: strong damping at 60 % of the Rayleigh time chatters from step to step (the damper is explicit: with damping
 /// ratio zeta the limit of the step shrinks by sqrt(1 + zeta^2) - zeta) and never rests.
