@@ -16,13 +16,13 @@ constexpr Peer kPeers[] = {{0.05, 12.68, 0.39, 6.47, {6.4732, 6.1032, 5.1734, 4.
                            {0.2, 20.45, 0.90, 8.73, {8.7256, 7.8949, 6.5290, 5.1120, 3.6877, 1.9602}}};
 
 class PeerHeap : public testing::TestWithParam<Peer> {};
-/// `law_deg`: part of the angle by which the laws themselves may differ.
-void expect_like_liggghts(const Peer& peer, LawKind law, double law_deg) {
+/// `shift_deg`: how much flatter (< 0) the law itself makes the heap.
+HeapProfile expect_flank_of_liggghts(const Peer& peer, LawKind law, double shift_deg) {
   Heap h;
   h.law = law;
   h.rolling_friction = peer.rolling_friction, h.threads = 2;
   const auto grains = run_heap(h);
-  ASSERT_EQ(grains.size(), 10000u);
+  EXPECT_EQ(grains.size(), 10000u);
   const HeapProfile p = heap_profile(grains);
   testing::Test::RecordProperty("flank_deg", std::to_string(p.flank_deg) + " sd " + std::to_string(p.flank_sd_deg));
   testing::Test::RecordProperty("apex_mm", std::to_string(1e3 * p.apex_m));
@@ -30,17 +30,26 @@ void expect_like_liggghts(const Peer& peer, LawKind law, double law_deg) {
   EXPECT_LT(p.mean_speed_m_s, 1e-3);  // at rest
   // Each heap's angle is known to about sd / sqrt(6) from its wedges; both heaps, three sigma.
   const double sd = std::max(peer.sd_deg, p.flank_sd_deg);
-  EXPECT_NEAR(p.flank_deg, peer.flank_deg, 3 * std::sqrt(2.0) * sd / std::sqrt(6.0) + law_deg);
-  // Surface: half a diameter, the roughness of the highest grains of 36 sectors being a tenth of one and the apex of one heap a third.
+  EXPECT_NEAR(p.flank_deg, peer.flank_deg + shift_deg, 3 * std::sqrt(2.0) * sd / std::sqrt(6.0));
+  return p;
+}
+
+/// Same formulas in our engine: flank and surface of the peer. What is left to differ is the packing, the lever on walls and the half-step normal.
+TEST_P(PeerHeap, comparison_law_has_the_heap_of_liggghts) {
+  const Peer& peer = GetParam();
+  const HeapProfile p = expect_flank_of_liggghts(peer, LawKind::liggghts_hertz, 0);
   for (int k = 0; k < 6; ++k) {
     const double ours = 1e3 * p.height_m[static_cast<std::size_t>(4 + 4 * k)];
-    testing::Test::RecordProperty("height_mm_" + std::to_string(k), std::to_string(ours) + " " + std::to_string(peer.height_mm[k]));
-    EXPECT_NEAR(ours, peer.height_mm[k], 0.5) << "r = " << 4.5 + 4 * k << " mm";
+    RecordProperty("height_mm_" + std::to_string(k), std::to_string(ours) + " " + std::to_string(peer.height_mm[k]));
+    // A ring of 36 sectors is known to a tenth of a diameter, the flank of one heap wanders by a few; the apex is one or two grains.
+    EXPECT_NEAR(ours, peer.height_mm[k], k == 0 ? 1.0 : 0.4) << "r = " << 4.5 + 4 * k << " mm";
   }
 }
-TEST_P(PeerHeap, comparison_law_has_the_flank_of_liggghts) { expect_like_liggghts(GetParam(), LawKind::liggghts_hertz, 0); }
-/// Half a degree for the laws: theirs lets tangential damping exceed Coulomb's limit and does not turn its rolling history with the contact.
-TEST_P(PeerHeap, our_law_has_the_flank_of_liggghts) { expect_like_liggghts(GetParam(), LawKind::hertz_mindlin_epsd, 0.5); }
+/// Our law: 3 deg flatter at all three rolling frictions (measured 9.56, 12.67, 17.67 deg against 12.68, 15.72, 20.45), because of the law and not of
+/// the engine: the test above gives 15.67 for 15.72 with their formulas. Theirs adds rolling damping without a cap (28 times the limit at the first
+/// touch of a rolling grain), keeps the rolling torque's direction in space when the contact turns, and lets tangential damping exceed Coulomb's
+/// limit; which of the three does most has not been separated.
+TEST_P(PeerHeap, our_law_is_three_degrees_flatter) { expect_flank_of_liggghts(GetParam(), LawKind::hertz_mindlin_epsd, -3); }
 INSTANTIATE_TEST_SUITE_P(RollingFriction, PeerHeap, testing::ValuesIn(kPeers));
 }  // namespace
 }  // namespace venato::dem::peers
