@@ -23,8 +23,10 @@ void PairList::resize(std::size_t pairs, std::size_t entries) {
 }
 
 void PairList::start(std::size_t block, std::size_t pair, const ContactHistory& h) {
-  place[pair] = contacts[block].take();
-  history_of(block, pair) = h;
+  place[pair] = contacts[block].take(history_width);
+  double* kept = contacts[block].history(place[pair], history_width);
+  kept[0] = h.spring.x, kept[1] = h.spring.y, kept[2] = h.spring.z, kept[3] = h.rolling.x, kept[4] = h.rolling.y, kept[5] = h.rolling.z;
+  if (history_width > 6) kept[6] = h.plastic, kept[7] = 0;
   touching[pair] = 1;
   contacts[block].sides += sides(block, pair);
 }
@@ -142,7 +144,7 @@ void PairListBuilder::carry(PairList& list, const PairList& old, const PairListI
       if (old.touching[old.pair_of(was, old.row[from])] && old.id[old.other(was, old.row[from])] >= id) break;
     if (from == from_end) return;
     if (old.id[old.other(was, old.row[from])] != id) continue;
-    const ContactHistory& h = old.history_of(PairList::block_of(was), old.pair_of(was, old.row[from]));
+    const ContactHistory h = old.history_of(PairList::block_of(was), old.pair_of(was, old.row[from]));
     list.start(block, static_cast<std::size_t>(list.block_first[block]) + list.row[e0 + k].pair(), old.row[from].second() ? mirrored(h) : h);
   }
 }
@@ -150,6 +152,7 @@ void PairListBuilder::carry(PairList& list, const PairList& old, const PairListI
 void PairListBuilder::rebuild(PairList& list, const PairListInput& in) {
   const std::int64_t n = static_cast<std::int64_t>(in.spheres.size()), blocks = (n + kGrainsPerBlock - 1) / kGrainsPerBlock;
   const PairList old = std::exchange(list, PairList());
+  list.history_width = old.history_width;
   rows_.resize(static_cast<std::size_t>(blocks));
   list.row_first.assign(static_cast<std::size_t>(n) + 1, 0);
   list.block_first.assign(static_cast<std::size_t>(blocks) + 1, 0);

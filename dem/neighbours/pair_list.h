@@ -44,18 +44,25 @@ struct RowEntry {
 };
 
 /// History seen from the other grain.
-inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, h.contact_radius, -h.rolling, h.plastic}; }
+inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, -h.rolling, h.plastic}; }
+
+struct alignas(64) CacheLine {
+  double v[8];
+};
 
 /// Touching pairs of one block.
 struct BlockContacts {
-  RawArray<ContactHistory> history;   ///< [place]
+  RawArray<CacheLine> rows;           ///< histories, [place][history width]
   RawArray<LoadRow> kept;             ///< [place] force on the pair's first grain, when it was asked for
   std::uint32_t used = 0;             ///< places taken so far; all below are in use or in `vacant`
   std::vector<std::uint32_t> vacant;
   std::int64_t sides = 0;             ///< touching grains of the block, once for each contact
-  std::uint32_t take() {
+  double* history(std::uint32_t place, std::uint32_t width) { return rows.data()->v + std::size_t{place} * width; }
+  const double* history(std::uint32_t place, std::uint32_t width) const { return rows.data()->v + std::size_t{place} * width; }
+  static std::size_t lines(std::size_t places, std::uint32_t width) { return (places * width + 7) / 8; }
+  std::uint32_t take(std::uint32_t width) {
     if (vacant.empty()) {
-      if (used == history.size()) history.grow(used + used / 4 + 16);
+      if (lines(used + 1, width) > rows.size()) rows.grow(lines(used + used / 4 + 16, width));
       return used++;
     }
     const std::uint32_t k = vacant.back();
@@ -65,12 +72,12 @@ struct BlockContacts {
 };
 
 struct PairList {
-  std::vector<std::int32_t> block_first;  ///< [block + 1] pairs of each block; also where its part of `history` starts
+  std::vector<std::int32_t> block_first;  ///< [block + 1] pairs of each block
   RawArray<std::uint16_t> own;            ///< [pair + padding] first grain, counted from the block's first
   RawArray<std::int32_t> partner;         ///< [pair + padding] slot of the second grain
   RawArray<std::uint8_t> touching;        ///< [pair + padding] 1 or 0
   RawArray<std::uint32_t> place;          ///< [pair] of the history in the block's part, while touching
-  RawArray<ContactHistory> history;       ///< [block_first + place]
+  std::uint32_t history_width = 8;        ///< numbers kept of each history: 6 (springs) or 8 (also the plastic overlap)
   std::vector<BlockContacts> contacts;    ///< [block]
   std::vector<std::int32_t> row_first;    ///< [slot + 1]
   RawArray<RowEntry> row;                 ///< [entry] by ascending id of the partner
@@ -86,8 +93,10 @@ struct PairList {
     const std::size_t p = pair_of(slot, e);
     return e.second() ? block_start(block_of(slot)) + own[p] : static_cast<std::size_t>(partner[p]);
   }
-  ContactHistory& history_of(std::size_t block, std::size_t pair) { return contacts[block].history[place[pair]]; }
-  const ContactHistory& history_of(std::size_t block, std::size_t pair) const { return contacts[block].history[place[pair]]; }
+  ContactHistory history_of(std::size_t block, std::size_t pair) const {
+    const double* h = contacts[block].history(place[pair], history_width);
+    return {{h[0], h[1], h[2]}, {h[3], h[4], h[5]}, history_width > 6 ? h[6] : 0.0};
+  }
   /// Starts (with this history) or ends a contact: marks the pair, takes or frees a place.
   void start(std::size_t block, std::size_t pair, const ContactHistory& h);
   void end(std::size_t block, std::size_t pair);

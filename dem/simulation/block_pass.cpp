@@ -33,7 +33,7 @@ void account(const PairView& v, const PairBatch& batch, const std::uint32_t* pai
     for (int k = 0; k < L::parameter_count; ++k) members[k] = batch.parameter[k][l];
     const ContactHistory before = history_of(batch, l);
     ContactHistory after = before;
-    const ContactForce force = law.force(f.g, after, dt);
+    const ContactForce force = force_of(law, f.g, after, dt);
     const ContactLoss loss = law.loss(f.g, before, after, force, dt);
     book.loss.normal += loss.normal, book.loss.tangential_damping += loss.tangential_damping;
     book.loss.sliding += loss.sliding, book.loss.rolling += loss.rolling;
@@ -74,7 +74,8 @@ PairView Simulation::Impl::pair_view(std::size_t b, LoadRow* sum) {
              pairs.partner.data() + first,
              pairs.touching.data() + first,
              pairs.place.data() + first,
-             pairs.contacts[b].history.data(),
+             pairs.contacts[b].rows.size() > 0 ? pairs.contacts[b].rows.data()->v : nullptr,
+             pairs.history_width,
              sum,
              nullptr,
              {box.length[0], box.length[1], box.length[2]},
@@ -108,7 +109,7 @@ void block_forces(Simulation::Impl& sim, const LawTable<L>& table, double dt, st
         list.start(b, p, ContactHistory{});
     }
     v = sim.pair_view(b, scratch.sum);  // new contacts may have moved the histories
-    if (keep) list.contacts[b].kept.grow(list.contacts[b].history.size()), v.kept = list.contacts[b].kept.data();
+    if (keep) list.contacts[b].kept.grow(list.contacts[b].used), v.kept = list.contacts[b].kept.data();
     lap(&PassClock::scan);
     for (std::size_t k = 0; k < scratch.touching.count; k += kBatchWidth) {
       scratch.ahead.some(kLinesPerBatch);

@@ -43,7 +43,7 @@ ContactGeometry resting_geometry(const Simulation::Impl& e, std::size_t i, std::
   const Trio to_j{d[0], d[1], d[2]};
   ContactGeometry g{};
   g.normal = (1 / length(to_j)) * to_j;
-  g.overlap = std::max(0.0, a.r + c.r - length(to_j));
+  g.overlap = g.overlap_before = std::max(0.0, a.r + c.r - length(to_j));
   g.r_eff = a.r * c.r / (a.r + c.r);
   return g;
 }
@@ -74,7 +74,7 @@ struct Hash {
   }
   void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
   void add(const Trio& t) { add(t.x), add(t.y), add(t.z); }
-  void add(const ContactHistory& c) { add(c.spring), add(c.contact_radius), add(c.rolling), add(c.plastic); }
+  void add(const ContactHistory& c) { add(c.spring), add(c.rolling), add(c.plastic); }
 };
 }  // namespace
 
@@ -164,7 +164,7 @@ EnergyBook Simulation::energy() const {
         });
         for_wall_contacts(e, [&](std::size_t s, const WallContact& c) {
           ContactGeometry g{};
-          g.normal = c.normal, g.overlap = c.overlap, g.r_eff = e.sphere[s].r;
+          g.normal = c.normal, g.overlap = g.overlap_before = c.overlap, g.r_eff = e.sphere[s].r;
           add(table.of(e.card[s].material, e.walls[static_cast<std::size_t>(c.wall)].wall.material).energy(g, c.history));
         });
       },

@@ -29,6 +29,12 @@ HWY_INLINE void load_rows8(const double* const* row, V* c) {
 HWY_INLINE void store_rows8(const V* c, double* const* row) {
   for (int k = 0; k < 8; ++k) hn::StoreU(c[k], D(), row[0] + k);
 }
+HWY_INLINE void load_rows6(const double* const* row, V* c) {
+  for (int k = 0; k < 6; ++k) c[k] = hn::LoadU(D(), row[0] + k);
+}
+HWY_INLINE void store_rows6(const V* c, double* const* row) {
+  for (int k = 0; k < 6; ++k) hn::StoreU(c[k], D(), row[0] + k);
+}
 #else
 /// Turns 2 x 2 numbers inside every 128-bit block.
 HWY_INLINE void turn2(V& a, V& b) {
@@ -92,6 +98,53 @@ HWY_INLINE void store_rows8(const V* column, double* const* row) {
     turn(c + h);
     for (int l = 0; l < kSquare; ++l) hn::StoreU(c[h + l], D(), row[l] + h);
   }
+}
+/// Rows of six: four and two.
+HWY_INLINE void load_rows6(const double* const* row, V* c) {
+  load_rows4(row, c);
+  const double* pair[kLanes];
+  for (int l = 0; l < kLanes; ++l) pair[l] = row[l] + 4;
+#if HWY_MAX_BYTES == 16
+  for (int l = 0; l < 2; ++l) c[4 + l] = hn::LoadU(D(), pair[l]);
+#elif HWY_MAX_BYTES == 32
+  const hn::Half<D> two;
+  for (int l = 0; l < 2; ++l) c[4 + l] = hn::Combine(D(), hn::LoadU(two, pair[l + 2]), hn::LoadU(two, pair[l]));
+#else
+  const hn::Half<D> four;
+  const hn::Half<decltype(four)> two;
+  for (int l = 0; l < 2; ++l)
+    c[4 + l] = hn::Combine(D(), hn::Combine(four, hn::LoadU(two, pair[l + 6]), hn::LoadU(two, pair[l + 4])),
+                           hn::Combine(four, hn::LoadU(two, pair[l + 2]), hn::LoadU(two, pair[l])));
+#endif
+  turn2(c[4], c[5]);
+}
+HWY_INLINE void store_rows6(const V* column, double* const* row) {
+  V c[6];
+  for (int k = 0; k < 6; ++k) c[k] = column[k];
+  turn2(c[4], c[5]);
+#if HWY_MAX_BYTES == 16
+  for (int h = 0; h < 4; h += 2) {
+    turn2(c[h], c[h + 1]);
+    for (int l = 0; l < 2; ++l) hn::StoreU(c[h + l], D(), row[l] + h);
+  }
+  for (int l = 0; l < 2; ++l) hn::StoreU(c[4 + l], D(), row[l] + 4);
+#else
+  turn4(c);
+  const hn::Half<D> half;
+#if HWY_MAX_BYTES == 32
+  for (int l = 0; l < 4; ++l) hn::StoreU(c[l], D(), row[l]);
+  for (int l = 0; l < 2; ++l)
+    hn::StoreU(hn::LowerHalf(half, c[4 + l]), half, row[l] + 4), hn::StoreU(hn::UpperHalf(half, c[4 + l]), half, row[l + 2] + 4);
+#else
+  for (int l = 0; l < 4; ++l) hn::StoreU(hn::LowerHalf(half, c[l]), half, row[l]), hn::StoreU(hn::UpperHalf(half, c[l]), half, row[l + 4]);
+  const hn::Half<decltype(half)> two;
+  for (int l = 0; l < 2; ++l) {
+    const auto low = hn::LowerHalf(half, c[4 + l]), high = hn::UpperHalf(half, c[4 + l]);
+    hn::StoreU(hn::LowerHalf(two, low), two, row[l] + 4), hn::StoreU(hn::UpperHalf(two, low), two, row[l + 2] + 4);
+    hn::StoreU(hn::LowerHalf(two, high), two, row[l + 4] + 4), hn::StoreU(hn::UpperHalf(two, high), two, row[l + 6] + 4);
+  }
+#endif
+#endif
 }
 #endif
 HWY_INLINE V nearest(V x, double length, double inverse) {
@@ -157,12 +210,11 @@ void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBat
   const D d;
   const auto* sphere = reinterpret_cast<const double*>(v.sphere);
   const auto* motion = reinterpret_cast<const double*>(v.motion);
-  const auto* history = reinterpret_cast<const double*>(v.history);
   for (int g = 0; g < (count + 7) / 8 * 8; g += kLanes) {
     const double *is[kLanes], *js[kLanes], *im[kLanes], *jm[kLanes], *h[kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const std::size_t p = pair[std::min(g + l, count - 1)], i = v.first(p), j = v.second(p);
-      is[l] = sphere + 4 * i, js[l] = sphere + 4 * j, im[l] = motion + 8 * i, jm[l] = motion + 8 * j, h[l] = history + 8 * std::size_t{v.place[p]};
+      is[l] = sphere + 4 * i, js[l] = sphere + 4 * j, im[l] = motion + 8 * i, jm[l] = motion + 8 * j, h[l] = v.history + std::size_t{v.place[p]} * v.history_width;
     }
     const Apart a = apart(v, is, js);
     hn::Store(a.x, d, b.from_i_x + g), hn::Store(a.y, d, b.from_i_y + g), hn::Store(a.z, d, b.from_i_z + g);
@@ -173,8 +225,13 @@ void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBat
     hn::Store(i[3], d, b.wi_x + g), hn::Store(i[4], d, b.wi_y + g), hn::Store(i[5], d, b.wi_z + g);
     hn::Store(j[3], d, b.wj_x + g), hn::Store(j[4], d, b.wj_y + g), hn::Store(j[5], d, b.wj_z + g);
     hn::Store(i[6], d, b.inverse_mass_i + g), hn::Store(j[6], d, b.inverse_mass_j + g);
-    load_rows8(h, i);
-    for (int c = 0; c < 8; ++c) hn::Store(i[c], d, b.history[c] + g);
+    if (v.history_width == 6) {
+      load_rows6(h, i);
+    } else {
+      load_rows8(h, i);
+      hn::Store(i[6], d, b.history[6] + g);
+    }
+    for (int c = 0; c < 6; ++c) hn::Store(i[c], d, b.history[c] + g);
   }
 }
 
@@ -187,38 +244,53 @@ HWY_INLINE Row8 load_row(const double* p) {
   for (int k = 0; k < kParts; ++k) r.part[k] = hn::Load(D(), p + k * kLanes);
   return r;
 }
-HWY_INLINE void add_row(double* sum, const double* p) {
-  for (int k = 0; k < kParts; ++k) hn::Store(hn::Add(hn::Load(D(), sum + k * kLanes), hn::Load(D(), p + k * kLanes)), D(), sum + k * kLanes);
+/// Lanes (c[k][l] = number k of row l) to rows: part k of row l is c[k * kLanes + l] afterwards.
+HWY_INLINE void turn_to_rows(V* c) {
+#if HWY_TARGET != HWY_SCALAR
+  for (int h = 0; h < 8; h += kSquare) turn(c + h);
+#else
+  (void)c;
+#endif
+}
+HWY_INLINE void add_row(double* sum, const V* c, int l) {
+  for (int k = 0; k < kParts; ++k) hn::Store(hn::Add(hn::Load(D(), sum + k * kLanes), c[k * kLanes + l]), D(), sum + k * kLanes);
 }
 
 std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
   const D d;
-  auto* history = reinterpret_cast<double*>(v.history);
   std::uint32_t deep = 0;
   for (int g = 0; g < count; g += kLanes) {
     const int valid = std::min(kLanes, count - g);
     double* h[kLanes];
-    for (int l = 0; l < kLanes; ++l) h[l] = history + 8 * std::size_t{v.place[pair[std::min(g + l, count - 1)]]};
+    for (int l = 0; l < kLanes; ++l) h[l] = v.history + std::size_t{v.place[pair[std::min(g + l, count - 1)]]} * v.history_width;
     V c[8];
-    for (int k = 0; k < 8; ++k) c[k] = hn::Load(d, b.history[k] + g);
-    store_rows8(c, h);
-    alignas(64) LoadRow first[kLanes], second[kLanes];
-    double *to_first[kLanes], *to_second[kLanes];
-    for (int l = 0; l < kLanes; ++l) to_first[l] = first[l].v, to_second[l] = second[l].v;
-    c[0] = hn::Load(d, b.force_x + g), c[1] = hn::Load(d, b.force_y + g), c[2] = hn::Load(d, b.force_z + g);
-    c[3] = hn::Load(d, b.torque_i_x + g), c[4] = hn::Load(d, b.torque_i_y + g), c[5] = hn::Load(d, b.torque_i_z + g);
-    c[6] = c[7] = hn::Zero(d);
-    store_rows8(c, to_first);
-    for (int k = 0; k < 3; ++k) c[k] = hn::Neg(c[k]);  // Newton's third law
-    c[3] = hn::Load(d, b.torque_j_x + g), c[4] = hn::Load(d, b.torque_j_y + g), c[5] = hn::Load(d, b.torque_j_z + g);
-    store_rows8(c, to_second);
-    for (int l = 0; l < valid; ++l) {
-      const std::size_t p = pair[g + l], i = v.own[p], j = v.second(p) - v.block_start;
-      add_row(v.sum[i].v, first[l].v);
-      add_row(v.sum[std::min(j, static_cast<std::size_t>(kGrainsPerBlock))].v, second[l].v);
+    for (int k = 0; k < 6; ++k) c[k] = hn::Load(d, b.history[k] + g);
+    if (v.history_width == 6) {
+      store_rows6(c, h);
+    } else {
+      c[6] = hn::Load(d, b.history[6] + g), c[7] = hn::Zero(d);
+      store_rows8(c, h);
     }
-    if (v.kept != nullptr)
-      for (int l = 0; l < valid; ++l) v.kept[v.place[pair[g + l]]] = first[l];
+    V first[8], second[8];
+    first[0] = hn::Load(d, b.force_x + g), first[1] = hn::Load(d, b.force_y + g), first[2] = hn::Load(d, b.force_z + g);
+    first[3] = hn::Load(d, b.torque_i_x + g), first[4] = hn::Load(d, b.torque_i_y + g), first[5] = hn::Load(d, b.torque_i_z + g);
+    for (int k = 0; k < 3; ++k) second[k] = hn::Neg(first[k]);  // Newton's third law
+    second[3] = hn::Load(d, b.torque_j_x + g), second[4] = hn::Load(d, b.torque_j_y + g), second[5] = hn::Load(d, b.torque_j_z + g);
+    first[6] = first[7] = second[6] = second[7] = hn::Zero(d);
+    turn_to_rows(first), turn_to_rows(second);
+    const auto add = [&](int l) HWY_ATTR {
+      const std::size_t p = pair[g + l], j = std::min<std::size_t>(v.second(p) - v.block_start, kGrainsPerBlock);
+      add_row(v.sum[v.own[p]].v, first, l);
+      add_row(v.sum[j].v, second, l);
+      if (v.kept != nullptr)
+        for (int k = 0; k < kParts; ++k) hn::Store(first[k * kLanes + l], d, v.kept[v.place[p]].v + k * kLanes);
+    };
+    if (valid == kLanes) {
+#pragma GCC unroll 8
+      for (int l = 0; l < kLanes; ++l) add(l);
+    } else {
+      for (int l = 0; l < valid; ++l) add(l);
+    }
     const V small = hn::Min(hn::Load(d, b.radius_i + g), hn::Load(d, b.radius_j + g));
     std::uint8_t mask[8] = {};
     hn::StoreMaskBits(d, hn::Gt(hn::Load(d, b.overlap + g), hn::Mul(hn::Set(d, watch), small)), mask);

@@ -26,7 +26,8 @@ struct PairView {
   const std::int32_t* partner;
   const std::uint8_t* touching;
   const std::uint32_t* place;
-  ContactHistory* history;              ///< [place]
+  double* history;                      ///< [place][history_width]
+  std::uint32_t history_width;          ///< 6 or 8
   LoadRow* sum;                         ///< [grain of the block, and one more for grains of other blocks] forces are added to it
   LoadRow* kept;                        ///< [place] out: on the first grain; null: not wanted
   double length[3], inverse_length[3];  ///< of the periodic box; 0 = not periodic

@@ -42,6 +42,7 @@ void check_setup(const SimulationSetup& s) {
 Simulation::Impl::Impl(const SimulationSetup& s) : setup(s) {
   check_setup(s);
   laws = make_laws(s);
+  pairs.history_width = std::visit([]<class L>(const LawTable<L>&) { return L::history_count <= 6 ? 6u : 8u; }, laws);
   for (int a = 0; a < 3; ++a) {
     if (!s.box.periodic[a]) continue;
     const double extent = std::max({std::abs(s.box.low[a]), std::abs(s.box.high[a]), s.box.high[a] - s.box.low[a]});

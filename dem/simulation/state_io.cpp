@@ -4,7 +4,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::uint64_t kMagic = 0x324d45444f4e4556ull;  // "VENODEM2"
+constexpr std::uint64_t kMagic = 0x334d45444f4e4556ull;  // "VENODEM3"
 
 std::size_t first_pair(const Simulation::Impl& e, std::size_t block) { return static_cast<std::size_t>(e.pairs.block_first[block]); }
 
@@ -54,9 +54,11 @@ void Simulation::load_state(std::span<const std::uint8_t> bytes) {
   for (std::size_t b = 0; b < e.pairs.contacts.size(); ++b)
     for (std::size_t p = first_pair(e, b); p < first_pair(e, b + 1); ++p) {
       if (!e.pairs.touching[p]) continue;
-      e.pairs.start(b, p, ContactHistory{});
-      e.pairs.contacts[b].kept.grow(e.pairs.contacts[b].history.size());
-      r.value(e.pairs.history_of(b, p)), r.value(e.pairs.contacts[b].kept[e.pairs.place[p]]);
+      ContactHistory h;
+      r.value(h);
+      e.pairs.start(b, p, h);
+      e.pairs.contacts[b].kept.grow(e.pairs.contacts[b].used);
+      r.value(e.pairs.contacts[b].kept[e.pairs.place[p]]);
     }
   for (std::size_t k = 0; k < e.walls.size(); ++k) {
     r.value(e.wall_impulse[k]), r.value(e.wall_load[k]);

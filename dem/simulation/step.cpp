@@ -147,7 +147,7 @@ void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
   const std::size_t count = static_cast<std::size_t>(pairs.block_first[block + 1]) - first;
   ahead.add(sphere.data() + s, n), ahead.add(motion.data() + s, n);
   ahead.add(pairs.own.data() + first, count), ahead.add(pairs.touching.data() + first, count), ahead.add(pairs.place.data() + first, count);
-  ahead.add(pairs.contacts[block].history.data(), pairs.contacts[block].used);
+  ahead.add(pairs.contacts[block].rows.data(), BlockContacts::lines(pairs.contacts[block].used, pairs.history_width));
   ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
   ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
   if (block + 1 < nb)

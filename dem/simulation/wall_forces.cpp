@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/contact/eepa/batch.h"
+#include "dem/contact/hertz_mindlin/batch.h"
+#include "dem/contact/liggghts_hertz/batch.h"
 #include "dem/simulation/impl.h"
 
 namespace venato::dem {
@@ -45,16 +48,16 @@ bool on_surface(const WallModel& w, const int* first, const int* last, const Vec
 }
 
 ContactGeometry wall_frame(const Sphere& x, const Motion& m, double mass, const Trio& n, const Trio& n_before, double overlap,
-                           const Trio& wall_velocity, const Trio& wall_spin, double dt) {
+                           double overlap_before, const Trio& wall_velocity, const Trio& wall_spin, double dt) {
   const Trio dv = wall_velocity - m.velocity, sum = n + n_before;
   const Trio n_half = (1 / length(sum)) * sum;
   ContactGeometry g;
-  g.overlap = overlap;
+  g.overlap = overlap, g.overlap_before = overlap_before;
   g.approach = -dot(dv, n);
   g.slide = cross(x.r * m.spin, n_half) - across(dv, n_half);  // lever R on walls: the spin identities of verification.md 3.1 hold exactly
   g.roll = across(m.spin - wall_spin, n);
   g.normal = n;
-  g.turn = frame_turn(n_before, n, n, 0.5 * dot(m.spin + wall_spin, n) * dt);
+  g.turn = frame_turn(n_before, n, 0.5 * dot(m.spin + wall_spin, n) * dt);
   g.r_eff = x.r;  // R* = R on every wall, also inside cylinders
   g.m_eff = mass;
   g.i_roll = 1.4 * mass * x.r * x.r;
@@ -115,9 +118,9 @@ void Simulation::Impl::wall_forces(const LawTable<L>& table, std::size_t s, doub
     const WallContact* old = continued(before, taken, walls, c.wall, n);
     WallContact now{c.wall, old ? old->history : ContactHistory{}, n, x.r - touch.distance, {}, {}, {}};
     const ContactHistory earlier = now.history;
-    const ContactGeometry g = wall_frame(x, m, card[s].mass, n, old ? old->normal : n, now.overlap, wall_velocity, wall_spin, dt);
+    const ContactGeometry g = wall_frame(x, m, card[s].mass, n, old ? old->normal : n, now.overlap, old ? old->overlap : 0.0, wall_velocity, wall_spin, dt);
     const L& law = table.of(card[s].material, w.wall.material);
-    now.force = law.force(g, now.history, dt);
+    now.force = force_of(law, g, now.history, dt);
     now.on_grain = now.force.tangential - now.force.normal * n;
     now.torque_on_grain = x.r * cross(n, now.force.tangential) + now.force.rolling;
     const Trio &f = now.on_grain, &t_on = now.torque_on_grain;

@@ -20,7 +20,7 @@ namespace venato::dem {
 
 struct Eepa {
   static constexpr std::string_view name = "eepa";
-  static constexpr int parameter_count = 9;
+  static constexpr int parameter_count = 9, history_count = 7;
   double young_eff;                                          ///< [Pa]
   double k2_ratio, k_adh_ratio;                              ///< [-] k2/k1 >= 1, k_adh/k1 >= 0
   double linear;                                             ///< 1: n = 1; 0: n = 1.5
@@ -53,20 +53,20 @@ struct Eepa {
     return {k1, radius, k_n, 2.0 / 7.0 * k_n, kEpsdStiffness * k_n * arm * arm};
   }
   /// d^(n-1): plays the part that the contact radius has in Hertz-Mindlin.
-  VENATO_KERNEL Stiffness stiffness(const ContactGeometry& g) const { return stiffness(g, linear > 0 ? 1.0 : std::sqrt(g.overlap)); }
+  VENATO_KERNEL double measure(double overlap) const { return linear > 0 ? 1.0 : std::sqrt(overlap); }
+  VENATO_KERNEL Stiffness stiffness(const ContactGeometry& g) const { return stiffness(g, measure(g.overlap)); }
 
   VENATO_KERNEL ContactForce force(const ContactGeometry& g, ContactHistory& h, double dt) const {
     const Stiffness k = stiffness(g);
     const double power = overlap_power(g.overlap);
     const double f_hys = hysteresis(k.k1, k2_ratio * k.k1, k_adh_ratio * k.k1, power, h.plastic);
     const double carried = std::abs(f_hys + k_adh_ratio * k.k1 * power);
-    const double ratio = unload_ratio(k.radius, h.contact_radius);
+    const double ratio = unload_ratio(k.radius, measure(g.overlap_before));
     ContactForce f;
     f.normal = constant_force + f_hys + 2 * beta * std::sqrt(g.m_eff * k.normal) * g.approach;
     const double gamma_t = 2 * beta * std::sqrt(g.m_eff * k.tangential), c_roll = 2 * rolling_damping * std::sqrt(g.i_roll * k.rolling);
     capped_springs(h.spring, h.rolling, g, ratio, {g.slide, k.tangential, gamma_t, friction * carried},
                    {g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * carried}, dt, f.tangential, f.rolling);
-    h.contact_radius = k.radius;
     return f;
   }
 
@@ -82,8 +82,8 @@ struct Eepa {
             k.rolling > 0 ? dot(h.rolling, h.rolling) / (2 * k.rolling) : 0};
   }
   ContactLoss loss(const ContactGeometry& g, const ContactHistory& before, const ContactHistory& after, const ContactForce& f, double dt) const {
-    const Stiffness k = stiffness(g), old = stiffness(g, before.contact_radius);
-    const double ratio = unload_ratio(k.radius, before.contact_radius), k2 = k2_ratio * k.k1;
+    const Stiffness k = stiffness(g), old = stiffness(g, measure(g.overlap_before));
+    const double ratio = unload_ratio(k.radius, old.radius), k2 = k2_ratio * k.k1;
     const SpringLoss t = spring_loss(before.spring, after.spring, f.tangential, g, ratio, g.slide, old.tangential, k.tangential, dt);
     const SpringLoss r = spring_loss(before.rolling, after.rolling, f.rolling, g, ratio, g.roll, old.rolling, k.rolling, dt);
     const double step = g.approach * dt, earlier = g.overlap - step > 0 ? g.overlap - step : 0.0;

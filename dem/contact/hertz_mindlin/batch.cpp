@@ -1,11 +1,26 @@
 #include "dem/contact/hertz_mindlin/batch.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "dem/contact/hertz_mindlin/batch.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace venato::dem::HWY_NAMESPACE {
+namespace {  // several laws have these names
+void evaluate_batch(PairBatch& b, int lanes, double dt) { evaluate_lanes<HertzMindlin>(b, lanes, dt); }
+ContactForce force_of(const HertzMindlin& law, const ContactGeometry& g, ContactHistory& h, double dt) { return law.force(g, h, dt); }
+}  // namespace
+}  // namespace venato::dem::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace venato::dem {
-__attribute__((target_clones("avx512f", "avx2", "default"))) void evaluate_batch(const HertzMindlin*, PairBatch& b, int lanes, double dt) {
-  evaluate_lanes<HertzMindlin>(
-      b, lanes, dt, [](const PairBatch& x, int l) __attribute__((always_inline)) {
-        return HertzMindlin{x.parameter[0][l], x.parameter[1][l], x.parameter[2][l], x.parameter[3][l], x.parameter[4][l],
-                            x.parameter[5][l], x.parameter[6][l], x.parameter[7][l], x.parameter[8][l]};
-      });
+HWY_EXPORT(evaluate_batch);
+HWY_EXPORT(force_of);
+void evaluate_batch(const HertzMindlin*, PairBatch& b, int lanes, double dt) { HWY_DYNAMIC_DISPATCH(evaluate_batch)(b, lanes, dt); }
+ContactForce force_of(const HertzMindlin& law, const ContactGeometry& g, ContactHistory& h, double dt) {
+  return HWY_DYNAMIC_DISPATCH(force_of)(law, g, h, dt);
 }
 }  // namespace venato::dem
+#endif

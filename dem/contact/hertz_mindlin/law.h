@@ -16,7 +16,7 @@ namespace venato::dem {
 
 struct HertzMindlin {
   static constexpr std::string_view name = "hertz_mindlin_epsd";
-  static constexpr int parameter_count = 9;
+  static constexpr int parameter_count = 9, history_count = 6;
   double young_eff, shear_eff;               ///< [Pa] [Pa]
   double beta;                               ///< [-] damping factor, 0 = elastic
   double friction;                           ///< [-]
@@ -38,15 +38,14 @@ struct HertzMindlin {
   VENATO_KERNEL ContactForce force(const ContactGeometry& g, ContactHistory& h, double dt) const {
     const Stiffness k = stiffness(g);
     const double root_am = std::sqrt(k.radius * g.m_eff);
-    const double push = k.normal * g.overlap + (normal_damper * root_am) * g.approach;
+    const double push = fused::add(k.normal, g.overlap, (normal_damper * root_am) * g.approach);
     const double f_n = push > 0 ? push : 0.0;
-    const double ratio = unload_ratio(k.radius, h.contact_radius);
+    const double ratio = g.overlap < g.overlap_before ? std::sqrt(g.overlap / g.overlap_before) : 1.0;
     const double c_roll = rolling_damper * g.r_eff * std::sqrt(k.radius * g.i_roll);
     ContactForce f;
     f.normal = f_n;
     capped_springs(h.spring, h.rolling, g, ratio, {g.slide, k.tangential, tangential_damper * root_am, friction * f_n},
                    {g.roll, k.rolling, c_roll, rolling_friction * g.r_eff * f_n}, dt, f.tangential, f.rolling);
-    h.contact_radius = k.radius;
     return f;
   }
 
@@ -57,8 +56,8 @@ struct HertzMindlin {
   }
 
   ContactLoss loss(const ContactGeometry& g, const ContactHistory& before, const ContactHistory& after, const ContactForce& f, double dt) const {
-    const Stiffness k = stiffness(g), old = stiffness(g, before.contact_radius);
-    const double ratio = unload_ratio(k.radius, before.contact_radius);
+    const Stiffness k = stiffness(g), old = stiffness(g, std::sqrt(g.r_eff * g.overlap_before));
+    const double ratio = unload_ratio(k.radius, old.radius);
     const SpringLoss t = spring_loss(before.spring, after.spring, f.tangential, g, ratio, g.slide, old.tangential, k.tangential, dt);
     const SpringLoss r = spring_loss(before.rolling, after.rolling, f.rolling, g, ratio, g.roll, old.rolling, k.rolling, dt);
     return {(f.normal - k.normal * g.overlap) * g.approach * dt, t.damping, t.plastic, r.plastic + r.damping};

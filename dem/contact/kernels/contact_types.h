@@ -8,6 +8,7 @@ namespace venato::dem {
 
 struct ContactGeometry {
   double overlap;   ///< [m] > 0
+  double overlap_before;  ///< [m] of the last step, 0 if there was none: springs shrink with it
   double approach;  ///< [m/s] d(overlap)/dt, half-step velocities, full-step normal
   Trio slide;       ///< [m/s] surface velocity of i relative to j, across the normal; taken with the half-step normal (verification.md 5.8)
   Trio roll;        ///< [rad/s] spin of i minus spin of j, across the normal
@@ -18,12 +19,11 @@ struct ContactGeometry {
   double i_roll;    ///< [kg m2] 1/Ir = sum 1/(I + m R^2); wall: 1.4 m R^2
 };
 
-/// Everything a contact remembers between steps. 64 bytes = one cache line. All zero = new contact.
-struct alignas(64) ContactHistory {
-  Trio spring;            ///< [N] tangential spring force on i
-  double contact_radius;  ///< [m] sqrt(R* overlap) (or EEPA's stiffness measure) of the last step: the springs shrink with it
-  Trio rolling;           ///< [N m] rolling spring torque on i
-  double plastic;         ///< EEPA: (plastic overlap)^n [m^n]; else unused
+/// Everything a contact remembers between steps. All zero = new contact.
+struct ContactHistory {
+  Trio spring;         ///< [N] tangential spring force on i
+  Trio rolling;        ///< [N m] rolling spring torque on i
+  double plastic = 0;  ///< EEPA: (plastic overlap)^n [m^n]; else unused
 };
 
 struct ContactForce {
@@ -44,6 +44,7 @@ template <class L>
 concept ContactLaw = requires(const L law, const ContactGeometry& g, ContactHistory& h, const ContactHistory& old, const ContactForce& f, double dt) {
   { L::name } -> std::convertible_to<std::string_view>;
   { L::parameter_count } -> std::convertible_to<int>;  ///< the law is that many doubles and nothing else
+  { L::history_count } -> std::convertible_to<int>;    ///< numbers of ContactHistory, from the first, that it uses
   { law.force(g, h, dt) } -> std::same_as<ContactForce>;
   { law.energy(g, old) } -> std::same_as<ContactEnergy>;
   { law.loss(g, old, old, f, dt) } -> std::same_as<ContactLoss>;  ///< (geometry, history before, history after, force, dt)

@@ -5,8 +5,8 @@
 
 namespace venato::dem {
 
-/// Ratio by which springs shrink when the contact unloads; 1 for a new or loading contact.
-VENATO_KERNEL double unload_ratio(double radius_now, double radius_before) { return radius_now < radius_before ? radius_now / radius_before : 1.0; }
+/// Ratio by which springs shrink when the contact unloads, from the measure that the stiffness goes with; 1 for a new or loading contact.
+VENATO_KERNEL double unload_ratio(double now, double before) { return now < before ? now / before : 1.0; }
 
 /// What one capped spring of a contact starts from.
 struct SpringInput {
@@ -23,14 +23,13 @@ struct SpringInput {
 VENATO_KERNEL void capped_springs(Trio& slide_spring, Trio& roll_spring, const ContactGeometry& g, double ratio, const SpringInput& slide,
                                   const SpringInput& roll, double dt, Trio& slide_total, Trio& roll_total) {
   constexpr double kTiny = 1e-300;  // keeps 0 / 0 out of cuts that are not taken
-  auto turned = [&](const Trio& spring) __attribute__((always_inline)) { return across(rotate(spring, g.turn), g.normal); };  // removes rounding
-  const Trio slide_trial = ratio * turned(slide_spring) - (slide.stiffness * dt) * slide.rate;
-  const Trio roll_trial = ratio * turned(roll_spring) - (roll.stiffness * dt) * roll.rate;
+  const Trio slide_trial = fused::add(-(slide.stiffness * dt), slide.rate, turned(slide_spring, g.turn, g.normal, ratio));
+  const Trio roll_trial = fused::add(-(roll.stiffness * dt), roll.rate, turned(roll_spring, g.turn, g.normal, ratio));
   const double slide_cap2 = slide.cap * slide.cap, roll_cap2 = roll.cap * roll.cap;
-  const bool slips = dot(slide_trial, slide_trial) > slide_cap2, rolls_through = dot(roll_trial, roll_trial) > roll_cap2;
-  const Trio slide_whole = slide_trial - (slips ? 0.0 : slide.damping) * slide.rate;
-  const Trio roll_whole = roll_trial - (rolls_through ? 0.0 : roll.damping) * roll.rate;
-  const double slide_size2 = dot(slide_whole, slide_whole), roll_size2 = dot(roll_whole, roll_whole);
+  const bool slips = fused::dot(slide_trial, slide_trial) > slide_cap2, rolls_through = fused::dot(roll_trial, roll_trial) > roll_cap2;
+  const Trio slide_whole = fused::add(slips ? 0.0 : -slide.damping, slide.rate, slide_trial);
+  const Trio roll_whole = fused::add(rolls_through ? 0.0 : -roll.damping, roll.rate, roll_trial);
+  const double slide_size2 = fused::dot(slide_whole, slide_whole), roll_size2 = fused::dot(roll_whole, roll_whole);
   const double slide_size = std::sqrt(slide_size2 > kTiny ? slide_size2 : kTiny), roll_size = std::sqrt(roll_size2 > kTiny ? roll_size2 : kTiny);
   const double q = 1 / (slide_size * roll_size), slide_cut = slide.cap * (q * roll_size), roll_cut = roll.cap * (q * slide_size);
   slide_total = (slide_size2 > slide_cap2 ? slide_cut : 1.0) * slide_whole;
@@ -46,7 +45,7 @@ struct SpringLoss {
 inline SpringLoss spring_loss(const Trio& before, const Trio& after, const Trio& total, const ContactGeometry& g, double ratio, const Trio& rate,
                               double stiffness_before, double stiffness, double dt) {
   if (!(stiffness > 0)) return {0, -dot(total, rate) * dt};
-  const Trio shrunk = ratio * across(rotate(before, g.turn), g.normal);
+  const Trio shrunk = turned(before, g.turn, g.normal, ratio);
   const Trio trial = shrunk - (stiffness * dt) * rate;
   const double held = stiffness_before > 0 ? dot(before, before) / (2 * stiffness_before) : 0;
   const double rescaling = held - dot(shrunk, shrunk) / (2 * stiffness);

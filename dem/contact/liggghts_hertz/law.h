@@ -25,7 +25,7 @@ namespace venato::dem {
 
 struct LiggghtsHertz {
   static constexpr std::string_view name = "liggghts_hertz";
-  static constexpr int parameter_count = 6;
+  static constexpr int parameter_count = 6, history_count = 6;
   double young_eff, shear_eff;               ///< [Pa] [Pa]
   double beta;                               ///< [-] textbook damping factor
   double friction;                           ///< [-]
@@ -54,10 +54,9 @@ struct LiggghtsHertz {
     const double push = std::abs(f.normal);
     const double gamma_t = kDamping * beta * std::sqrt(k.tangential * g.m_eff);
     const double c_roll = 2 * rolling_damping * std::sqrt(g.i_roll * k.rolling);
-    const Trio trial = across(displacement_ratio(k.radius, h.contact_radius) * h.spring - (k.tangential * dt) * g.slide, g.normal);
+    const Trio trial = across(displacement_ratio(k.radius, std::sqrt(g.r_eff * g.overlap_before)) * h.spring - (k.tangential * dt) * g.slide, g.normal);
     f.tangential = limited(h.spring, trial, g.slide, gamma_t, friction * push);
     f.rolling = limited(h.rolling, h.rolling - (k.rolling * dt) * g.roll, g.roll, c_roll, rolling_friction * g.r_eff * push);
-    h.contact_radius = k.radius;
     return f;
   }
 
@@ -69,10 +68,10 @@ struct LiggghtsHertz {
 
   /// `sliding` is negative where the law makes energy (a displacement spring that stiffens under load).
   ContactLoss loss(const ContactGeometry& g, const ContactHistory& before, const ContactHistory& after, const ContactForce& f, double dt) const {
-    const Stiffness k = stiffness(g), old = stiffness(g, before.contact_radius);
+    const Stiffness k = stiffness(g), old = stiffness(g, std::sqrt(g.r_eff * g.overlap_before));
     ContactGeometry still = g;
     still.turn = {};  // springs are projected, not turned
-    const double ratio = displacement_ratio(k.radius, before.contact_radius);
+    const double ratio = displacement_ratio(k.radius, old.radius);
     const SpringLoss t = spring_loss(before.spring, after.spring, f.tangential, still, ratio, g.slide, old.tangential, k.tangential, dt);
     const SpringLoss r = spring_loss(before.rolling, after.rolling, f.rolling, still, 1, g.roll, old.rolling, k.rolling, dt);
     return {(f.normal - k.normal * g.overlap) * g.approach * dt, t.damping, t.plastic, r.plastic + r.damping};

@@ -16,14 +16,15 @@ MaterialTable table(double young, double poisson, double density, const PairProp
 /// Contact of two equal spheres (or, with m_eff = m and r_eff = R, of one with a wall) with normal x.
 ContactGeometry contact(double overlap, double r_eff, double m_eff) {
   ContactGeometry g{};
-  g.overlap = overlap;
+  g.overlap = g.overlap_before = overlap;
   g.normal = Trio(1, 0, 0);
+  g.turn = frame_turn(g.normal, g.normal, 0);
   g.r_eff = r_eff, g.m_eff = m_eff, g.i_roll = 1;
   return g;
 }
 
 /// The frame has turned from the direction `before` to g.normal by the shortest way.
-void turn_from(ContactGeometry& g, const Trio& before) { g.turn = frame_turn(before, g.normal, g.normal, 0); }
+void turn_from(ContactGeometry& g, const Trio& before) { g.turn = frame_turn((1 / length(before)) * before, g.normal, 0); }
 
 // verification.md 1.4 and 1.1: forces at a frozen overlap.
 TEST(LiggghtsHertz, has_the_common_stiffness) {
@@ -63,7 +64,9 @@ void collide(const L& law, Pair& p, double dt) {
     g.normal = n;
     g.approach = -dot(dv, n);
     g.slide = cross(arm * (p.w[0] + p.w[1]) * Trio(0, 0, 1), n) - across(dv, n);
-    turn_from(g, to - dt * dv);
+    const Trio before = to - dt * dv;
+    turn_from(g, before);
+    g.overlap_before = std::max(0.0, 2 * p.radius - length(before));
     const ContactForce f = law.force(g, h, dt);
     p.most_pull = std::max(p.most_pull, -f.normal);
     p.tangential_impulse += length(f.tangential) * dt;
@@ -117,8 +120,8 @@ double loop_work(const L& law) {
   double shear_before = 0, normal_before = 0;
   const auto move = [&](double d_overlap, double d_shear) {
     for (int k = 0; k < n; ++k) {
-      overlap += d_overlap / n;
-      ContactGeometry g = contact(overlap, 0.5e-3, 1);
+      ContactGeometry g = contact(overlap + d_overlap / n, 0.5e-3, 1);
+      g.overlap_before = std::exchange(overlap, g.overlap);
       g.approach = d_overlap / n / dt, g.slide = Trio(0, d_shear / n / dt, 0);
       const ContactForce f = law.force(g, h, dt);
       work += 0.5 * (f.tangential.y + shear_before) * d_shear / n - 0.5 * (f.normal + normal_before) * d_overlap / n;  // trapezoid
@@ -145,6 +148,7 @@ TEST(LiggghtsHertz, books_the_energy_that_it_makes) {
   ContactHistory sheared{};
   law.force(low, sheared, 1e-6);
   ContactHistory pressed = sheared;
+  high.overlap_before = low.overlap;
   const ContactForce f = law.force(high, pressed, 1e-6);
   EXPECT_NEAR(law.loss(high, sheared, pressed, f, 1e-6).sliding / -4.08881e-12, 1, 1e-5);
   EXPECT_NEAR((law.energy(high, pressed).elastic_tangential - law.energy(low, sheared).elastic_tangential) / 4.08881e-12, 1, 1e-5);
