@@ -5,13 +5,11 @@
 #include <cstring>
 #include <utility>
 
-namespace venato::dem {
-namespace {
-constexpr double kRounding = 1 + 1e-9;  // of the reach: rounding of the paths never hides a pair
-constexpr std::uint32_t kSecond = 0x80000000u;
-}  // namespace
+#include "dem/neighbours/near_scan.h"
 
-void PairList::resize(std::size_t pairs, std::size_t entries) {
+namespace venato::dem {
+
+void PairList::resize(std::size_t pairs) {
   own.resize_for_overwrite(pairs + kListPadding);
   std::fill_n(own.data() + pairs, kListPadding, std::uint16_t{0});
   partner.resize_for_overwrite(pairs + kListPadding);
@@ -19,7 +17,6 @@ void PairList::resize(std::size_t pairs, std::size_t entries) {
   touching.resize_for_overwrite(pairs + kListPadding);
   std::memset(touching.data(), 0, pairs + kListPadding);
   place.resize_for_overwrite(pairs);
-  row.resize_for_overwrite(entries);
 }
 
 void PairList::start(std::size_t block, std::size_t pair, const ContactHistory& h) {
@@ -36,11 +33,32 @@ void PairList::end(std::size_t block, std::size_t pair) {
   contacts[block].sides -= sides(block, pair);
 }
 
-void PairListBuilder::find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search) {
-  const std::size_t si = static_cast<std::size_t>(i);
+namespace {
+constexpr double kRounding = 1 + 1e-9;  // of the reach: rounding of the paths never hides a pair
+
+/// Pairs of a block by first grain, with ascending ids of the partners.
+struct BlockRows {
+  std::vector<std::int32_t> row;  ///< slots of the partners
+  std::vector<std::int32_t> end;
+  std::span<const std::int32_t> of(std::size_t k) const {
+    const std::size_t begin = k == 0 ? 0 : static_cast<std::size_t>(end[k - 1]);
+    return {row.data() + begin, static_cast<std::size_t>(end[k]) - begin};
+  }
+};
+
+struct Search {  ///< working memory of one thread
+  std::vector<std::pair<std::int32_t, std::int32_t>> runs;
+  std::vector<std::int32_t> near;
+  std::vector<std::pair<std::int64_t, std::int32_t>> row;  ///< (id, slot)
+};
+
+/// Partners of the pairs that stand in the block of grain i with i as their first grain: of its own block those with higher ids, of others all.
+void find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search) {
+  const std::size_t si = static_cast<std::size_t>(i), block = PairList::block_of(si);
   const Sphere s = in.spheres[si];
   const Anchor& a = in.anchor[si];
   const double grown = s.r + static_cast<double>(a.allowance);
+  const std::int64_t own_id = in.id[si];
   search.runs.clear(), search.row.clear();
   std::size_t most = 0;
   auto take = [&](std::int32_t from, std::int32_t to) { search.runs.emplace_back(from, to), most += static_cast<std::size_t>(to - from); };
@@ -56,6 +74,7 @@ void PairListBuilder::find_row(const PairListInput& in, const NearField& field, 
   }
   for (std::size_t k = 0; k < found; ++k) {
     const std::size_t sj = static_cast<std::size_t>(search.near[k]);
+    if (PairList::block_of(sj) == block && in.id[sj] < own_id) continue;
     const Sphere& t = in.spheres[sj];
     double d[3] = {t.x - s.x, t.y - s.y, t.z - s.z};
     for (std::size_t c = 0; c < 3; ++c)  // wrapped already: at most one box length off
@@ -66,7 +85,7 @@ void PairListBuilder::find_row(const PairListInput& in, const NearField& field, 
                     kRounding * (grown + (t.r + static_cast<double>(b.allowance))), in.life_s))
       search.row.emplace_back(in.id[sj], search.near[k]);
   }
-  // Insertion sort: a dozen entries.
+  // Insertion sort: ten entries.
   for (std::size_t k = 1; k < search.row.size(); ++k) {
     const auto n = search.row[k];
     std::size_t q = k;
@@ -75,120 +94,99 @@ void PairListBuilder::find_row(const PairListInput& in, const NearField& field, 
   }
 }
 
-/// Pairs of a block in the order of (lower id, higher id), with the rows' entries for their first grains. A grain's pairs with higher ids are one run
-/// of its row; pairs with a grain of another block that has the lower id come singly.
-void PairListBuilder::order_pairs(PairList& list, const PairListInput& in, std::size_t block) const {
-  const BlockRows& rows = rows_[block];
-  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
+struct Workshop {  ///< working memory of one thread
   struct Run {
     std::int64_t lower, higher;     // ids; higher is the first of the run
     std::uint32_t grain, from, to;  // entries of the grain's row
   };
   std::vector<Run> runs;
-  runs.reserve(3 * static_cast<std::size_t>(kGrainsPerBlock));
+  struct Heir {
+    std::size_t pair;
+    const double* history;
+    bool mirror;
+  };
+  std::vector<Heir> heirs;
+};
+
+/// Pairs of a block in the order of (lower id, higher id). A grain's pairs with higher ids are one run of its row; pairs with a grain of another
+/// block that has the lower id come singly.
+void order_pairs(PairList& list, const BlockRows& rows, const PairListInput& in, std::size_t block, Workshop& work) {
+  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
+  work.runs.clear();
   for (std::size_t s = start; s < end; ++s) {
     const std::span<const std::int32_t> row = rows.of(s - start);
     auto id = [&](std::uint32_t k) { return in.id[static_cast<std::size_t>(row[k])]; };
     std::uint32_t k = 0;
-    for (; k < row.size() && id(k) < in.id[s]; ++k) {
-      const std::size_t other = static_cast<std::size_t>(row[k]);
-      if (other < start || other >= end) runs.push_back({id(k), in.id[s], static_cast<std::uint32_t>(s - start), k, k + 1});
-    }
-    if (k < row.size()) runs.push_back({in.id[s], id(k), static_cast<std::uint32_t>(s - start), k, static_cast<std::uint32_t>(row.size())});
+    for (; k < row.size() && id(k) < in.id[s]; ++k) work.runs.push_back({id(k), in.id[s], static_cast<std::uint32_t>(s - start), k, k + 1});
+    if (k < row.size()) work.runs.push_back({in.id[s], id(k), static_cast<std::uint32_t>(s - start), k, static_cast<std::uint32_t>(row.size())});
   }
-  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.lower != b.lower ? a.lower < b.lower : a.higher < b.higher; });
-  const std::size_t first = static_cast<std::size_t>(list.block_first[block]);
-  std::size_t p = first;
-  for (const Run& r : runs) {
+  std::sort(work.runs.begin(), work.runs.end(),
+            [](const Workshop::Run& a, const Workshop::Run& b) { return a.lower != b.lower ? a.lower < b.lower : a.higher < b.higher; });
+  std::size_t p = static_cast<std::size_t>(list.block_first[block]);
+  for (const Workshop::Run& r : work.runs) {
     const std::span<const std::int32_t> row = rows.of(r.grain);
-    for (std::uint32_t k = r.from; k < r.to; ++k, ++p) {
-      list.own[p] = static_cast<std::uint16_t>(r.grain);
-      list.partner[p] = row[k];
-      list.row[static_cast<std::size_t>(list.row_first[start + r.grain]) + k].code = static_cast<std::uint32_t>(p - first);
-    }
+    for (std::uint32_t k = r.from; k < r.to; ++k, ++p) list.own[p] = static_cast<std::uint16_t>(r.grain), list.partner[p] = row[k];
   }
 }
 
-/// Pairs and rows of a block, then what the old list knows of their contacts.
-void PairListBuilder::fill_block(PairList& list, const PairList& old, const PairListInput& in, std::size_t block) const {
-  const BlockRows& rows = rows_[block];
-  const std::size_t start = PairList::block_start(block), end = std::min(start + static_cast<std::size_t>(kGrainsPerBlock), in.spheres.size());
-  auto inside = [&](std::int32_t slot) { return static_cast<std::size_t>(slot) >= start && static_cast<std::size_t>(slot) < end; };
-  order_pairs(list, in, block);
-  for (std::size_t s = start; s < end; ++s) {
-    std::size_t e = static_cast<std::size_t>(list.row_first[s]);
-    for (const std::int32_t slot : rows.of(s - start)) {
-      const std::size_t other = static_cast<std::size_t>(slot);
-      if (inside(slot) && in.id[other] < in.id[s]) {  // the pair stands with its other grain
-        const std::span<const std::int32_t> theirs = rows.of(other - start);
-        const auto found = std::find(theirs.begin(), theirs.end(), static_cast<std::int32_t>(s));
-        list.row[e].code = list.row[static_cast<std::size_t>(list.row_first[other] + (found - theirs.begin()))].code | kSecond;
-      }
-      ++e;
-    }
+/// What the old list knew of the contacts of a block.
+void carry(PairList& list, const ContactEstate& estate, const PairListInput& in, std::size_t block, Workshop& work) {
+  work.heirs.clear();
+  for (std::size_t p = static_cast<std::size_t>(list.block_first[block]); p < static_cast<std::size_t>(list.block_first[block + 1]); ++p) {
+    std::size_t lower = PairList::block_start(block) + list.own[p], higher = static_cast<std::size_t>(list.partner[p]);
+    const bool mirror = in.id[higher] < in.id[lower];
+    if (mirror) std::swap(lower, higher);
+    if (const double* h = estate.history(static_cast<std::size_t>(in.old_slot[lower]), static_cast<std::size_t>(in.old_slot[higher])))
+      work.heirs.push_back({p, h, mirror});
   }
-  list.contacts[block] = BlockContacts();
-  for (std::size_t s = start; s < end; ++s) carry(list, old, in, block, s);
-}
-
-void PairListBuilder::carry(PairList& list, const PairList& old, const PairListInput& in, std::size_t block, std::size_t s) const {
-  const std::size_t was = static_cast<std::size_t>(in.old_slot[s]);
-  if (was >= old.grain_count()) return;
-  std::size_t from = static_cast<std::size_t>(old.row_first[was]);
-  const std::size_t from_end = static_cast<std::size_t>(old.row_first[was + 1]), e0 = static_cast<std::size_t>(list.row_first[s]);
-  const std::span<const std::int32_t> row = rows_[block].of(s - PairList::block_start(block));
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (list.row[e0 + k].second()) continue;
-    const std::int64_t id = in.id[static_cast<std::size_t>(row[k])];
-    for (; from < from_end; ++from)
-      if (old.touching[old.pair_of(was, old.row[from])] && old.id[old.other(was, old.row[from])] >= id) break;
-    if (from == from_end) return;
-    if (old.id[old.other(was, old.row[from])] != id) continue;
-    const ContactHistory h = old.history_of(PairList::block_of(was), old.pair_of(was, old.row[from]));
-    list.start(block, static_cast<std::size_t>(list.block_first[block]) + list.row[e0 + k].pair(), old.row[from].second() ? mirrored(h) : h);
+  BlockContacts& contacts = list.contacts[block];
+  contacts = BlockContacts();
+  contacts.rows.grow(BlockContacts::lines(work.heirs.size() + work.heirs.size() / 8 + 16, list.history_width));
+  for (const Workshop::Heir& heir : work.heirs) {
+    const double* h = heir.history;
+    const ContactHistory seen{{h[0], h[1], h[2]}, {h[3], h[4], h[5]}, list.history_width > 6 ? h[6] : 0.0};
+    list.start(block, heir.pair, heir.mirror ? mirrored(seen) : seen);
   }
 }
 
-void PairListBuilder::rebuild(PairList& list, const PairListInput& in) {
+}  // namespace
+
+void rebuild_pairs(PairList& list, const ContactEstate& estate, const PairListInput& in) {
   const std::int64_t n = static_cast<std::int64_t>(in.spheres.size()), blocks = (n + kGrainsPerBlock - 1) / kGrainsPerBlock;
-  const PairList old = std::exchange(list, PairList());
-  list.history_width = old.history_width;
-  rows_.resize(static_cast<std::size_t>(blocks));
-  list.row_first.assign(static_cast<std::size_t>(n) + 1, 0);
+  std::vector<BlockRows> all_rows(static_cast<std::size_t>(blocks));
+  list.grain_count = in.spheres.size();
   list.block_first.assign(static_cast<std::size_t>(blocks) + 1, 0);
   list.contacts.resize(static_cast<std::size_t>(blocks));
-  list.id.resize_for_overwrite(static_cast<std::size_t>(n));
-  std::copy(in.id.begin(), in.id.end(), list.id.data());
   const int threads = in.threads;
-  const NearField field = make_near_field(in.spheres, in.reach, in.box, threads);
+  {
+    const NearField field = make_near_field(in.spheres, in.reach, in.box, threads);
+#pragma omp parallel num_threads(threads) if (threads > 1)
+    {
+      Search search;
+#pragma omp for schedule(dynamic, 1)
+      for (std::int64_t b = 0; b < blocks; ++b) {
+        BlockRows& out = all_rows[static_cast<std::size_t>(b)];
+        for (std::int64_t i = b * kGrainsPerBlock; i < std::min(n, (b + 1) * kGrainsPerBlock); ++i) {
+          find_row(in, field, static_cast<std::int32_t>(i), search);
+          for (const auto& [id, slot] : search.row) out.row.push_back(slot);
+          out.end.push_back(static_cast<std::int32_t>(out.row.size()));
+        }
+        list.block_first[static_cast<std::size_t>(b) + 1] = static_cast<std::int32_t>(out.row.size());
+      }
+    }
+  }
+  for (std::size_t k = 1; k < list.block_first.size(); ++k) list.block_first[k] += list.block_first[k - 1];
+  list.resize(list.pair_count());
 
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
-    Search search;
+    Workshop work;
 #pragma omp for schedule(dynamic, 1)
-    for (std::int64_t b = 0; b < blocks; ++b) {
-      BlockRows& out = rows_[static_cast<std::size_t>(b)];
-      out.row.clear(), out.end.clear();
-      std::int32_t pairs = 0;
-      const std::int64_t start = b * kGrainsPerBlock, end = std::min(n, start + kGrainsPerBlock);
-      for (std::int64_t i = start; i < end; ++i) {
-        const std::size_t s = static_cast<std::size_t>(i);
-        find_row(in, field, static_cast<std::int32_t>(i), search);
-        for (const auto& [id, slot] : search.row) {
-          pairs += slot < start || slot >= end || id > in.id[s];
-          out.row.push_back(slot);
-        }
-        out.end.push_back(static_cast<std::int32_t>(out.row.size()));
-        list.row_first[s + 1] = static_cast<std::int32_t>(search.row.size());
-      }
-      list.block_first[static_cast<std::size_t>(b) + 1] = pairs;
+    for (std::int64_t i = 0; i < blocks; ++i) {
+      const std::size_t b = static_cast<std::size_t>(i);
+      order_pairs(list, all_rows[b], in, b, work);
+      carry(list, estate, in, b, work);
     }
   }
-  for (std::size_t k = 1; k < list.row_first.size(); ++k) list.row_first[k] += list.row_first[k - 1];
-  for (std::size_t k = 1; k < list.block_first.size(); ++k) list.block_first[k] += list.block_first[k - 1];
-  list.resize(list.pair_count(), static_cast<std::size_t>(list.row_first.back()));
-
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (threads > 1)
-  for (std::int64_t b = 0; b < blocks; ++b) fill_block(list, old, in, static_cast<std::size_t>(b));
 }
 }  // namespace venato::dem

@@ -7,16 +7,15 @@
 /// and only the pairs across block borders (about a quarter) are computed twice.
 ///
 /// The pairs of a block stand in the order of their ids (the lower, then the higher). Adding up forces in this order gives every grain its contacts
-/// in ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Each grain
-/// also has a row of its pairs, sorted by the partner's id, by which histories go from the old list to the new one. Histories are kept for touching
-/// pairs only, densely from the start of the block's part of `history`.
+/// in ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Histories
+/// are kept for touching pairs only, densely, block by block; a ContactEstate takes them from the old list to the new one.
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "dem/contact/kernels/contact_types.h"
 #include "dem/neighbours/cell_grid.h"
-#include "dem/neighbours/near_scan.h"
+#include "dem/neighbours/contact_estate.h"
 #include "dem/neighbours/raw_array.h"
 #include "dem/neighbours/reach_plan.h"
 
@@ -36,12 +35,6 @@ struct alignas(64) LoadRow {
   double v[8] = {};
   Load load() const { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
 };
-/// Entry of a row: the pair, counted from the block's first, and whether the grain is its second one.
-struct RowEntry {
-  std::uint32_t code;
-  std::uint32_t pair() const { return code & 0x7fffffffu; }
-  bool second() const { return code >> 31 != 0; }
-};
 
 /// History seen from the other grain.
 inline ContactHistory mirrored(const ContactHistory& h) { return {-h.spring, -h.rolling, h.plastic}; }
@@ -52,11 +45,11 @@ struct alignas(64) CacheLine {
 
 /// Touching pairs of one block.
 struct BlockContacts {
-  RawArray<CacheLine> rows;           ///< histories, [place][history width]
-  RawArray<LoadRow> kept;             ///< [place] force on the pair's first grain, when it was asked for
-  std::uint32_t used = 0;             ///< places taken so far; all below are in use or in `vacant`
+  RawArray<CacheLine> rows;  ///< histories, [place][history width]
+  RawArray<LoadRow> kept;    ///< [place] force on the pair's first grain, when it was asked for
+  std::uint32_t used = 0;    ///< places taken so far; all below are in use or in `vacant`
   std::vector<std::uint32_t> vacant;
-  std::int64_t sides = 0;             ///< touching grains of the block, once for each contact
+  std::int64_t sides = 0;  ///< touching grains of the block, once for each contact
   double* history(std::uint32_t place, std::uint32_t width) { return rows.data()->v + std::size_t{place} * width; }
   const double* history(std::uint32_t place, std::uint32_t width) const { return rows.data()->v + std::size_t{place} * width; }
   static std::size_t lines(std::size_t places, std::uint32_t width) { return (places * width + 7) / 8; }
@@ -79,20 +72,11 @@ struct PairList {
   RawArray<std::uint32_t> place;          ///< [pair] of the history in the block's part, while touching
   std::uint32_t history_width = 8;        ///< numbers kept of each history: 6 (springs) or 8 (also the plastic overlap)
   std::vector<BlockContacts> contacts;    ///< [block]
-  std::vector<std::int32_t> row_first;    ///< [slot + 1]
-  RawArray<RowEntry> row;                 ///< [entry] by ascending id of the partner
-  RawArray<std::int64_t> id;              ///< [slot]
+  std::size_t grain_count = 0;            ///< slots of the list; later ones are new grains
 
-  std::size_t grain_count() const { return row_first.empty() ? 0 : row_first.size() - 1; }
   std::size_t pair_count() const { return block_first.empty() ? 0 : static_cast<std::size_t>(block_first.back()); }
   static std::size_t block_of(std::size_t slot) { return slot / static_cast<std::size_t>(kGrainsPerBlock); }
   static std::size_t block_start(std::size_t block) { return block * static_cast<std::size_t>(kGrainsPerBlock); }
-  std::size_t pair_of(std::size_t slot, RowEntry e) const { return static_cast<std::size_t>(block_first[block_of(slot)]) + e.pair(); }
-  /// Slot of the other grain of a row's entry.
-  std::size_t other(std::size_t slot, RowEntry e) const {
-    const std::size_t p = pair_of(slot, e);
-    return e.second() ? block_start(block_of(slot)) + own[p] : static_cast<std::size_t>(partner[p]);
-  }
   ContactHistory history_of(std::size_t block, std::size_t pair) const {
     const double* h = contacts[block].history(place[pair], history_width);
     return {{h[0], h[1], h[2]}, {h[3], h[4], h[5]}, history_width > 6 ? h[6] : 0.0};
@@ -100,7 +84,7 @@ struct PairList {
   /// Starts (with this history) or ends a contact: marks the pair, takes or frees a place.
   void start(std::size_t block, std::size_t pair, const ContactHistory& h);
   void end(std::size_t block, std::size_t pair);
-  void resize(std::size_t pairs, std::size_t entries);
+  void resize(std::size_t pairs);
 
  private:
   int sides(std::size_t block, std::size_t pair) const { return block_of(static_cast<std::size_t>(partner[pair])) == block ? 2 : 1; }
@@ -112,38 +96,12 @@ struct PairListInput {
   std::span<const double> reach;
   double life_s;
   std::span<const std::int64_t> id;
-  std::span<const std::int32_t> old_slot;  ///< [new slot] slot in the old list; >= old.grain_count() = new grain
+  std::span<const std::int32_t> old_slot;  ///< [new slot] slot in the old list; beyond it = new grain
   const CellGrid* grid;                    ///< null = brute force
   PeriodicBox box;
   int threads;
 };
 
-/// Makes lists.
-class PairListBuilder {
- public:
-  /// Rebuilds `list`; histories of touching pairs that are still near are carried over.
-  void rebuild(PairList& list, const PairListInput& in);
-
- private:
-  /// Rows of a block of grains, one after the other: slots of the partners by ascending id.
-  struct BlockRows {
-    std::vector<std::int32_t> row;
-    std::vector<std::int32_t> end;
-    std::span<const std::int32_t> of(std::size_t k) const {
-      const std::size_t begin = k == 0 ? 0 : static_cast<std::size_t>(end[k - 1]);
-      return {row.data() + begin, static_cast<std::size_t>(end[k]) - begin};
-    }
-  };
-  struct Search {  ///< working memory of one thread
-    std::vector<std::pair<std::int32_t, std::int32_t>> runs;
-    std::vector<std::int32_t> near;
-    std::vector<std::pair<std::int64_t, std::int32_t>> row;  ///< (id, slot)
-  };
-  static void find_row(const PairListInput& in, const NearField& field, std::int32_t i, Search& search);
-  void fill_block(PairList& list, const PairList& old, const PairListInput& in, std::size_t block) const;
-  void order_pairs(PairList& list, const PairListInput& in, std::size_t block) const;
-  void carry(PairList& list, const PairList& old, const PairListInput& in, std::size_t block, std::size_t slot) const;
-
-  std::vector<BlockRows> rows_;
-};
+/// Fills `list`, whose memory is used again; histories of touching pairs that are still near are carried over from `estate`.
+void rebuild_pairs(PairList& list, const ContactEstate& estate, const PairListInput& in);
 }  // namespace venato::dem

@@ -122,7 +122,6 @@ struct Simulation::Impl {
 
   // neighbour list book-keeping
   CellGrid grid;
-  PairListBuilder pair_builder;
   std::vector<Anchor> anchor;  ///< [slot]; see dem/neighbours/reach_plan.h
   std::vector<double> reach;   ///< [slot] of the search, when the list was built
   ReachExperience reach_experience;

@@ -43,6 +43,11 @@ Vec3 Simulation::Impl::wrapped(const Vec3& p) const {
 
 void Simulation::Impl::rebuild_list() {
   if (list_valid) reach_experience.list_ended(strayed());
+  load = std::vector<Load>();  // of the old order, and whoever needs it makes it anew
+  std::vector<GrainId> ids(card.size());
+  const auto note_ids = [&] { std::transform(card.begin(), card.end(), ids.begin(), [](const GrainCard& c) { return c.id; }); };
+  note_ids();
+  const ContactEstate estate(pairs, ids, team());
   // 1. living grains, wrapped into the box
   const std::int64_t all = grains();
   const int threads = team();
@@ -76,6 +81,7 @@ void Simulation::Impl::rebuild_list() {
     for (std::size_t k = 0; k < spheres.size(); ++k) spheres[k].r = plan.reach[k];
     order = grid.build(spheres, box, threads);
   }
+  spheres = std::vector<Sphere>(), velocity = std::vector<Trio>();  // the search below needs the room
   permute(plan.anchor, order, threads);
   permute(plan.reach, order, threads);
   anchor.swap(plan.anchor), reach.swap(plan.reach);
@@ -87,15 +93,14 @@ void Simulation::Impl::rebuild_list() {
     next_sphere[k] = sphere[was], next_motion[k] = motion[was];
   });
   sphere.swap(next_sphere), motion.swap(next_motion);
-  load.resize(order.size());
   permute(card, order, threads);
   for_each(n, threads, [&](std::size_t s) { slot_of_id[static_cast<std::size_t>(card[s].id)] = static_cast<std::int32_t>(s); });
   one_material = std::all_of(card.begin(), card.end(), [&](const GrainCard& c) { return c.material == card.front().material; });
   any_frozen = std::any_of(card.begin(), card.end(), [](const GrainCard& c) { return c.frozen != 0; });
   // 3. pairs and walls, histories carried
-  std::vector<GrainId> ids(card.size());
-  std::transform(card.begin(), card.end(), ids.begin(), [](const GrainCard& c) { return c.id; });
-  pair_builder.rebuild(pairs, {sphere, anchor, reach, list_life_s, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, threads});
+  ids.resize(card.size());
+  note_ids();
+  rebuild_pairs(pairs, estate, {sphere, anchor, reach, list_life_s, ids, order, setup.brute_force_neighbours ? nullptr : &grid, box, threads});
   rebuild_walls(order);
   listed = grains();
   step_of_build = step_count;

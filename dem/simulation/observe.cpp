@@ -232,7 +232,11 @@ double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_s
   impl_->finish_step();
   const Impl& e = *impl_;
   double top = -std::numeric_limits<double>::infinity();
-  const std::size_t listed = std::min(e.pairs.grain_count(), e.sphere.size());
+  const std::size_t listed = std::min(e.pairs.grain_count, e.sphere.size());
+  std::vector<std::uint8_t> in_contact(e.pairs.grain_count, 0);
+  for (std::size_t b = 0; b < e.pairs.contacts.size(); ++b)
+    for (std::size_t p = static_cast<std::size_t>(e.pairs.block_first[b]); p < static_cast<std::size_t>(e.pairs.block_first[b + 1]); ++p)
+      if (e.pairs.touching[p]) in_contact[PairList::block_start(b) + e.pairs.own[p]] = in_contact[static_cast<std::size_t>(e.pairs.partner[p])] = 1;
   for (std::size_t s = 0; s < listed; ++s) {
     const Sphere& x = e.sphere[s];
     if (!alive(e, s) || x.z <= top) continue;
@@ -240,10 +244,7 @@ double Simulation::bed_top_m(const Vec3& low, const Vec3& high, double resting_s
     if (v.x * v.x + v.y * v.y + v.z * v.z > resting_speed_m_s * resting_speed_m_s) continue;
     const Vec3 p = e.wrapped(Vec3(x.x, x.y, x.z));
     if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
-    bool touches = e.wall_list.contact_count[s] > 0;
-    for (std::int32_t k = e.pairs.row_first[s]; k < e.pairs.row_first[s + 1] && !touches; ++k)
-      touches = e.pairs.touching[e.pairs.pair_of(s, e.pairs.row[static_cast<std::size_t>(k)])] != 0;
-    if (touches) top = x.z;
+    if (e.wall_list.contact_count[s] > 0 || in_contact[s]) top = x.z;
   }
   return top;
 }

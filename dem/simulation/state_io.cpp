@@ -4,7 +4,7 @@
 
 namespace venato::dem {
 namespace {
-constexpr std::uint64_t kMagic = 0x334d45444f4e4556ull;  // "VENODEM3"
+constexpr std::uint64_t kMagic = 0x344d45444f4e4556ull;  // "VENODEM4"
 
 std::size_t first_pair(const Simulation::Impl& e, std::size_t block) { return static_cast<std::size_t>(e.pairs.block_first[block]); }
 
@@ -13,7 +13,7 @@ template <class Archive, class Impl>
 void exchange(Archive& a, Impl& e) {
   a.list(e.sphere), a.list(e.motion), a.list(e.load), a.list(e.card), a.list(e.slot_of_id);
   a.list(e.pairs.block_first), a.raw(e.pairs.own), a.raw(e.pairs.partner), a.raw(e.pairs.touching);
-  a.list(e.pairs.row_first), a.raw(e.pairs.row), a.raw(e.pairs.id);
+  a.value(e.pairs.grain_count);
   a.list(e.wall_list.first), a.list(e.wall_list.candidate), a.list(e.wall_list.triangle);
   a.list(e.wall_list.contact_first), a.list(e.wall_list.contact_count), a.list(e.wall_list.contact);
   a.list(e.anchor), a.list(e.reach), a.value(e.list_life_s), a.value(e.farthest_m), a.value(e.listed), a.value(e.list_valid);

@@ -31,7 +31,7 @@ Simulation chute(double angle_deg, double start_speed_m_s) {
 }
 
 struct Flow {
-  double height_m = 0, tan_theta = 0, inertial = 0, inertial_spread = 0, friction = 0, solid = 0, solid_spread = 0, ratio_error = 0, bagnold_r2 = 0,
+  double height_m = 0, driving = 0, inertial = 0, inertial_spread = 0, friction = 0, solid = 0, solid_spread = 0, ratio_error = 0, bagnold_r2 = 0,
          speed_change = 0;
 };
 double flow_speed(const Simulation& sim) {
@@ -48,8 +48,8 @@ Flow flow(double angle_deg) {
   box.low = Vec3(0, 0, 0), box.high = Vec3(kWidth, kLength, 20 * kD);
   box.periodic[0] = box.periodic[1] = true;
   ContinuumSums sums(make_continuum_grid(box, Vec3(1, 1, 0.5 * kD), 0.75 * kD));
-  const double early = flow_speed(sim);
-  constexpr int samples = 800;
+  const double early = flow_speed(sim), begin_s = sim.time_s();
+  constexpr int samples = 3200;  // 400 sqrt(d/g)
   double speed = 0;
   for (int k = 0; k < samples; ++k) {
     sim.step(100);
@@ -63,7 +63,9 @@ Flow flow(double angle_deg) {
   };
   // Surface: where the weight above ends, from the density (1 % of the layer's mass above it); base: 1 d.
   Flow r;
-  r.tan_theta = std::tan(angle_deg * kDegree);
+  // What drives the shear stress is the weight along the base less what the layer still gains of momentum in the window.
+  const double gained = (flow_speed(sim) - early) / (sim.time_s() - begin_s);
+  r.driving = std::tan(angle_deg * kDegree) - gained / (kGravity * std::cos(angle_deg * kDegree));
   r.speed_change = std::abs(speed - early) / speed;
   double areal = 0;
   for (const double rho : f.density_kg_m3) areal += rho * f.grid.cell_m.z();
@@ -76,7 +78,7 @@ Flow flow(double angle_deg) {
     if (z < 0.3 * r.height_m || z > 0.7 * r.height_m) continue;  // the core: 4 d from the base and the surface
     const std::size_t c = f.grid.index(0, 0, k);
     const double pressure = -stress(k, 8), shear = -stress(k, 5);  // yz: force along y on faces across z
-    r.ratio_error = std::max(r.ratio_error, std::abs(std::abs(shear) / pressure / r.tan_theta - 1));
+    r.ratio_error = std::max(r.ratio_error, std::abs(std::abs(shear) / pressure / r.driving - 1));
     core_phi.push_back(f.solid_fraction[c]);
     core_i.push_back(f.gradient_1_s[c][5] * kD / std::sqrt(pressure / kDensity));
     x.push_back(std::pow(r.height_m, 1.5) - std::pow(r.height_m - z, 1.5)), u.push_back(f.velocity_m_s[c].y());
@@ -105,9 +107,9 @@ TEST(InclinedFlow, is_steady_with_bagnolds_profile_and_mu_of_i) {
     RecordProperty("angle_" + std::to_string(static_cast<int>(angle)), line);
     EXPECT_GT(f.height_m, 9 * kD) << angle;
     EXPECT_LT(f.speed_change, 0.1) << angle;  // steady: otherwise nothing below means anything
-    // Balance of forces of a steady layer: exact but for what its speed still wanders (1 % of g sin) and the average of 800 instants over 40 d^2.
-    EXPECT_LT(f.ratio_error, 0.02) << angle;
-    EXPECT_NEAR(f.friction / f.tan_theta, 1, 0.01) << angle;
+    // Balance of momentum: exact but for the average of 3200 instants over 40 d^2 (measured: at most 0.0053 at a depth, 0.0031 for the core).
+    EXPECT_LT(f.ratio_error, 0.012) << angle;
+    EXPECT_NEAR(f.friction / f.driving, 1, 0.006) << angle;
     EXPECT_LT(f.solid_spread, 0.01) << angle;  // Silbert 2001: constant in the core
     EXPECT_GT(f.bagnold_r2, 0.99) << angle;
     flows.push_back(f);
