@@ -50,6 +50,7 @@ struct Search {  ///< working memory of one thread
   std::vector<std::pair<std::int32_t, std::int32_t>> runs;
   std::vector<std::int32_t> near;
   std::vector<std::pair<std::int64_t, std::int32_t>> row;  ///< (id, slot)
+  std::vector<std::int32_t> block_row;
 };
 
 /// Partners of the pairs that stand in the block of grain i with i as their first grain: of its own block those with higher ids, of others all.
@@ -166,11 +167,13 @@ void rebuild_pairs(PairList& list, const ContactEstate& estate, const PairListIn
 #pragma omp for schedule(dynamic, 1)
       for (std::int64_t b = 0; b < blocks; ++b) {
         BlockRows& out = all_rows[static_cast<std::size_t>(b)];
+        search.block_row.clear();
         for (std::int64_t i = b * kGrainsPerBlock; i < std::min(n, (b + 1) * kGrainsPerBlock); ++i) {
           find_row(in, field, static_cast<std::int32_t>(i), search);
-          for (const auto& [id, slot] : search.row) out.row.push_back(slot);
-          out.end.push_back(static_cast<std::int32_t>(out.row.size()));
+          for (const auto& [id, slot] : search.row) search.block_row.push_back(slot);
+          out.end.push_back(static_cast<std::int32_t>(search.block_row.size()));
         }
+        out.row = search.block_row;  // no longer than it is
         list.block_first[static_cast<std::size_t>(b) + 1] = static_cast<std::int32_t>(out.row.size());
       }
     }

@@ -150,7 +150,7 @@ struct Simulation::Impl {
 
   // the step
   void step_once();
-  void evaluate();
+  void evaluate(bool each_contact = true);
   void move_walls(double time_s);
   void advance();      ///< forces of the last step and its second half kick (if pending), first half kick, drift
   void finish_step();  ///< forces and second half kick now
@@ -158,7 +158,7 @@ struct Simulation::Impl {
   bool list_is_stale() const;
   void rebuild_list();
   void rebuild_walls(const std::vector<std::int32_t>& old_slot);
-  void keep_forces(double dt);  ///< forces of all contacts, also each by itself; sums into load
+  void take_forces(double dt, bool each_contact);  ///< sums over contacts into load; if wanted also the force of each (BlockContacts::kept)
   void note_crossings(std::size_t block);
   MoveView move_view(const BlockScratch& mine) const;
   void fetch_block(FetchAhead& ahead, std::size_t block) const;

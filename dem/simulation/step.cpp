@@ -40,7 +40,7 @@ void share_out(StepStatistics& stats, double seconds, const std::vector<PassCloc
 
 /// The whole step. Velocity Verlet is kick, drift, forces, kick; forces and the second kick wait for the next step's pass over the grains.
 void Simulation::Impl::step_once() {
-  if (!forces_valid) evaluate();
+  if (!forces_valid) evaluate(false);  // nobody looks at single contacts before they are made anew
   advance();
   ++step_count;
   timed(stats.seconds_walls, [&] { move_walls(time()); });
@@ -51,16 +51,16 @@ void Simulation::Impl::step_once() {
 }
 
 /// Forces of the present positions and velocities: springs turn and stretch by nothing in a step of length zero.
-void Simulation::Impl::evaluate() {
+void Simulation::Impl::evaluate(bool each_contact) {
   finish_step();
   if (!list_valid) rebuild_list();
-  keep_forces(0);
+  take_forces(0, each_contact);
   forces_valid = true;
 }
 
 void Simulation::Impl::finish_step() {
   if (!pending) return;
-  keep_forces(setup.time_step_s);
+  take_forces(setup.time_step_s, true);
   const double half = 0.5 * setup.time_step_s;
   const Trio g = to_trio(setup.gravity_m_s2);
   for (std::size_t s = 0; s < sphere.size(); ++s) {  // the same operations as kick() of pair_lanes.cpp
@@ -86,7 +86,7 @@ BlockScratch& Simulation::Impl::my_scratch() {
   return *mine;
 }
 
-void Simulation::Impl::keep_forces(double dt) {
+void Simulation::Impl::take_forces(double dt, bool each_contact) {
   const std::int64_t nb = blocks();
   books.resize(static_cast<std::size_t>(nb));
   thread_scratch.resize(static_cast<std::size_t>(std::max(setup.threads, 1)));
@@ -99,7 +99,7 @@ void Simulation::Impl::keep_forces(double dt) {
 #pragma omp for schedule(dynamic, 1)
           for (std::int64_t i = 0; i < nb; ++i) {
             const std::size_t b = static_cast<std::size_t>(i);
-            block_forces(*this, table, dt, b, mine, true, nullptr);
+            block_forces(*this, table, dt, b, mine, each_contact, nullptr);
             for (std::size_t s = PairList::block_start(b); s < block_end(b); ++s) load[s] = mine.sum[s - PairList::block_start(b)].load();
           }
         }
