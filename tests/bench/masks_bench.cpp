@@ -1,5 +1,7 @@
 /// The mask set of a synthetic slab, and what the peers of tests/bench/masks_vs_peers need to do the same: see usage in main().
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -96,6 +98,69 @@ void write_positions(const sync::MaskJob& job, const fs::path& file, int step) {
   std::fclose(out);
 }
 
+/// Where every kStep-th source pixel lies on the print [px, y upwards]: gdalwarp's geolocation arrays, doubles. The inverse by fixed-point iteration:
+/// the bend's slope is under 0.05, so 12 steps end at rounding.
+constexpr int kStep = 4;
+void write_geolocation(const sync::MaskJob& job, const fs::path& folder) {
+  const auto& source = job.layers[0].ink;
+  std::FILE* out[2] = {std::fopen((folder / "geo_x.raw").c_str(), "wb"), std::fopen((folder / "geo_y.raw").c_str(), "wb")};
+  if (!out[0] || !out[1]) throw std::runtime_error("cannot write " + folder.string());
+  for (int j = 0; j < source.height; j += kStep)
+    for (int i = 0; i < source.width; i += kStep) {
+      const sync::Point target((i + 0.5) * kSourcePitch_m, (j + 0.5) * kSourcePitch_m);
+      sync::Point p = target - job.print_from_green.t;
+      for (int n = 0; n < 12; ++n) p += target - job.print_from_green(p);
+      const double xy[2] = {p.x() / kPrintPitch_m, -p.y() / kPrintPitch_m};
+      for (int k = 0; k < 2; ++k) std::fwrite(&xy[k], sizeof(double), 1, out[k]);
+    }
+  std::fclose(out[0]);
+  std::fclose(out[1]);
+}
+
+/// Runs a program: "wall seconds, CPU seconds, peak MiB".
+int time_program(char** argv) {
+  const auto start = std::chrono::steady_clock::now();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execvp(argv[0], argv);
+    ::_exit(127);
+  }
+  int status = 0;
+  rusage u{};
+  ::wait4(child, &status, 0, &u);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  std::printf("time %.2f %.2f %.0f\n", wall, s(u.ru_utime) + s(u.ru_stime), static_cast<double>(u.ru_maxrss) / 1024);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+/// print.tif alone, what the peers make: warp, compression, file.
+void write_print(const sync::MaskJob& job, const sync::WarpGrid& grid, const fs::path& file, int threads) {
+  const auto layers = sync::prepare_layers(job, grid);
+  graphics::TiffInfo info;
+  info.width = grid.width;
+  info.height = grid.height;
+  info.channels = kInks;
+  info.dpi = kDpi;
+  info.kind = graphics::TiffKind::separated;
+  for (const auto& ink : job.inks) info.ink_names.push_back(ink.name);
+  graphics::TiffStripWriter writer(file, info, threads);
+  const int batch = 256 * threads;
+  std::vector<std::uint8_t> out(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(batch) * kInks), scratch;
+  double warp = 0, code = 0;
+  for (std::int64_t row = 0; row < grid.height; row += batch) {
+    const int rows = static_cast<int>(std::min<std::int64_t>(batch, grid.height - row));
+    const auto strip = std::span(out).first(static_cast<std::size_t>(grid.width * rows * kInks));
+    warp += seconds_of([&] { sync::ink_rows(layers, grid, row, rows, strip, scratch, threads); });
+    code += seconds_of([&] { writer.write_rows(strip); });
+  }
+  const double close = seconds_of([&] { writer.close(); });
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("print_s %.2f warp_s %.2f compress_s %.2f disk_s %.2f peak_mib %.0f\n", warp + code + close, warp, code, close,
+              static_cast<double>(usage.ru_maxrss) / 1024);
+}
+
 void kernel_rates() {
   const sync::WarpGrid grid{8192, 2048, kPrintPitch_m};
   const sync::Transform map = bend(0.578, 0.1445);
@@ -133,8 +198,9 @@ int main(int argc, char** argv) {
     kernel_rates();
     return 0;
   }
-  if (argc < 5 || (what != "set" && what != "warp" && what != "inputs")) {
-    std::fprintf(stderr, "usage: masks_bench kernel | set|warp|inputs SCALE THREADS FOLDER\n");
+  if (what == "time" && argc > 2) return time_program(argv + 2);
+  if (argc < 5 || (what != "set" && what != "warp" && what != "inputs" && what != "print")) {
+    std::fprintf(stderr, "usage: masks_bench kernel | set|print|warp|inputs SCALE THREADS FOLDER | time PROGRAM ARGUMENT...\n");
     return 2;
   }
   const double scale = std::atof(argv[2]);
@@ -148,8 +214,13 @@ int main(int argc, char** argv) {
     info.compression = graphics::TiffCompression::none;
     graphics::write_tiff(folder / "source.tif", job.layers[0].ink, info, threads);
     write_positions(job, folder / "positions.raw", 1);
+    write_geolocation(job, folder);
     std::printf("size %lld %lld source %d %d\n", static_cast<long long>(grid.width), static_cast<long long>(grid.height), job.layers[0].ink.width,
                 job.layers[0].ink.height);
+    return 0;
+  }
+  if (what == "print") {
+    write_print(job, grid, folder / "print.tif", threads);
     return 0;
   }
   if (what == "warp") {
