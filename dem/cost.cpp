@@ -11,8 +11,8 @@ namespace {
 // configs/dem/slot_hopper.json (4500 grains, filling, rest and discharge): 9.7e6 per core second on a shared 2020s server core; beds of 100,000 and a
 // million grains 8e6 to 13e6 (tests/bench/RESULTS.md). Used for estimates only, never for results.
 constexpr double kParticleStepsPerCoreSecond = 8e6;
-// State, lists, histories, and what building a list needs: tests/bench/RESULTS.md.
-constexpr double kBytesPerGrain = 1500;
+// State, lists, histories, and what building a list needs (800 to 940 measured): tests/bench/RESULTS.md.
+constexpr double kBytesPerGrain = 1000;
 constexpr double kBytesPerSnapshotGrain = 8 + 24 + 24 + 4 + 4;
 constexpr double kBytesPerCounterRecord = 160;
 constexpr double kLatticePitch = 1.02;  // diameters per place of a loose row

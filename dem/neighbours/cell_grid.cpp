@@ -1,13 +1,28 @@
 #include "dem/neighbours/cell_grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace venato::dem {
 namespace {
 constexpr int kMostLevels = 6;  // size ratios up to 64; smaller grains share the last level
 constexpr std::int64_t kCellsPerGrain = 8, kFreeCells = 4096;
+constexpr double kRodGrains = 256;  // whose cube a rod is as wide as: a block of pair_list.h, so that few pairs cross its border
+constexpr std::int64_t kWidestRod = 8;
 }  // namespace
+
+void CellGrid::Level::number_cells(std::int64_t width) {
+  const std::int64_t nx = axis[0].count, ny = axis[1].count, nz = axis[2].count, rods_y = (ny + width - 1) / width;
+  slice = width * width;
+  cells = nx * rods_y * ((nz + width - 1) / width) * slice;
+  part_y.clear(), part_z.clear(), rod_end_y.clear();
+  for (std::int64_t y = 0; y < ny; ++y) {
+    part_y.push_back(y / width * nx * slice + y % width);
+    rod_end_y.push_back(std::min(ny, (y / width + 1) * width) - 1);
+  }
+  for (std::int64_t z = 0; z < nz; ++z) part_z.push_back(z / width * rods_y * nx * slice + z % width * width);
+}
 
 PeriodicBox PeriodicBox::from(const Box& box) {
   PeriodicBox p;
@@ -113,7 +128,9 @@ std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const
     for (const std::int32_t k : group) level.r_max = std::max(level.r_max, spheres[static_cast<std::size_t>(k)].r);
     level.first_slot = first;
     shape_level(level, spheres, group, box, 2 * level.r_max);
-    for (int a = 0; a < 3; ++a) level.bricks[a] = (level.axis[a].count + kBrick - 1) / kBrick;
+    const double box_cells =
+        static_cast<double>(level.axis[0].count) * static_cast<double>(level.axis[1].count) * static_cast<double>(level.axis[2].count);
+    level.number_cells(std::clamp<std::int64_t>(std::llround(std::cbrt(kRodGrains * box_cells / static_cast<double>(group.size()))), 2, kWidestRod));
     const std::int64_t m = static_cast<std::int64_t>(group.size());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && m > 4096)
     for (std::int64_t q = 0; q < m; ++q) {
@@ -121,7 +138,7 @@ std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const
       cell[static_cast<std::size_t>(q)] =
           static_cast<std::int32_t>(level.cell(level.axis[0].cell_of(s.x), level.axis[1].cell_of(s.y), level.axis[2].cell_of(s.z)));
     }
-    level.start.assign(static_cast<std::size_t>(level.cells()) + 1, 0);
+    level.start.assign(static_cast<std::size_t>(level.cells) + 1, 0);
     for (std::size_t q = 0; q < group.size(); ++q) ++level.start[static_cast<std::size_t>(cell[q]) + 1];
     for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
     std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);

@@ -1,7 +1,8 @@
 #pragma once
 /// Cell grid over spheres, one level per factor of two in radius, so that small grains never search through cells made for big ones.
-/// Grains are put in order (level, brick of 4 x 4 x 4 cells, cell): neighbours in space are neighbours in memory. Cost does not depend on empty
-/// space: the grid spans the occupied extent, and where that is mostly empty its axes are compressed to the occupied slabs.
+/// Grains are put in order (level, rod, cell): a rod is a square of cells in y and z that runs along x, slice by slice, as wide as makes any
+/// kGrainsPerBlock consecutive grains about a cube: neighbours in space are neighbours in memory, and few pairs cross the border of a block. Cost does
+/// not depend on empty space: the grid spans the occupied extent, and where that is mostly empty its axes are compressed to the occupied slabs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,15 +53,16 @@ class CellGrid {
     std::int64_t cell_of(double v) const;
     void range(double low, double high, std::int64_t& first, std::int64_t& last) const;
   };
-  static constexpr std::int64_t kBrick = 4;  ///< cells
   struct Level {
     double r_max = 0;
     Axis axis[3];
-    std::int64_t bricks[3] = {0, 0, 0};
-    std::int64_t cells() const { return bricks[0] * bricks[1] * bricks[2] * kBrick * kBrick * kBrick; }
-    std::int64_t cell(std::int64_t x, std::int64_t y, std::int64_t z) const {
-      const std::int64_t brick = ((z / kBrick) * bricks[1] + y / kBrick) * bricks[0] + x / kBrick;
-      return ((brick * kBrick + z % kBrick) * kBrick + y % kBrick) * kBrick + x % kBrick;
+    /// Cell (x, y, z) has the number slice * x + part_y[y] + part_z[z]; y and its followers up to rod_end_y[y] are consecutive.
+    std::int64_t slice = 1, cells = 0;
+    std::vector<std::int64_t> part_y, part_z, rod_end_y;
+    /// \param width of a rod, cells
+    void number_cells(std::int64_t width);
+    std::size_t cell(std::int64_t x, std::int64_t y, std::int64_t z) const {
+      return static_cast<std::size_t>(slice * x + part_y[static_cast<std::size_t>(y)] + part_z[static_cast<std::size_t>(z)]);
     }
     std::int32_t first_slot = 0;
     std::vector<std::int32_t> start;  ///< [cell + 1], relative to first_slot
@@ -84,25 +86,25 @@ void CellGrid::for_runs_near(double x, double y, double z, double reach_extra, c
     const std::int64_t nx = level.axis[0].count, ny = level.axis[1].count, nz = level.axis[2].count;
     for (std::int64_t kz = lo[2]; kz <= hi[2]; ++kz) {
       const std::int64_t cz = kz < 0 ? kz + nz : (kz >= nz ? kz - nz : kz);
-      for (std::int64_t ky = lo[1]; ky <= hi[1]; ++ky) {
-        const std::int64_t cy = ky < 0 ? ky + ny : (ky >= ny ? ky - ny : ky);
+      for (std::int64_t kx = lo[0]; kx <= hi[0]; ++kx) {
+        const std::int64_t cx = kx < 0 ? kx + nx : (kx >= nx ? kx - nx : kx);
         auto run = [&](std::int64_t from, std::int64_t to) {
-          while (from <= to) {  // brick by brick
-            const std::int64_t end = std::min(to, from | (kBrick - 1));
-            const std::size_t c = static_cast<std::size_t>(level.cell(from, cy, cz));
+          while (from <= to) {  // rod by rod
+            const std::int64_t end = std::min(to, level.rod_end_y[static_cast<std::size_t>(from)]);
+            const std::size_t c = level.cell(cx, from, cz);
             const std::int32_t first = level.start[c], last = level.start[c + static_cast<std::size_t>(end - from) + 1];
             if (first < last) visit(level.first_slot + first, level.first_slot + last);
             from = end + 1;
           }
         };
-        if (lo[0] < 0) {
-          run(lo[0] + nx, nx - 1);
-          run(0, hi[0]);
-        } else if (hi[0] >= nx) {
-          run(lo[0], nx - 1);
-          run(0, hi[0] - nx);
+        if (lo[1] < 0) {
+          run(lo[1] + ny, ny - 1);
+          run(0, hi[1]);
+        } else if (hi[1] >= ny) {
+          run(lo[1], ny - 1);
+          run(0, hi[1] - ny);
         } else
-          run(lo[0], hi[0]);
+          run(lo[1], hi[1]);
       }
     }
   }

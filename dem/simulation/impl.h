@@ -13,6 +13,7 @@
 #include "dem/neighbours/cell_grid.h"
 #include "dem/neighbours/pair_list.h"
 #include "dem/neighbours/reach_plan.h"
+#include "dem/simulation/stray_watch.h"
 #include "dem/simulation/exact_sum.h"
 #include "dem/simulation/pair_lanes.h"
 #include "dem/simulation/simulation.h"
@@ -82,6 +83,7 @@ struct WallSum {
 /// Sums of one block of grains; blocks do not depend on the thread count, and are added in order.
 struct BlockBook {
   bool strayed = false;  ///< a grain left its path in the neighbour list by more than its allowance
+  StrayWatch watch;
   double speed2 = 0, overlap = 0;
   GrainId fastest = -1;
   std::int64_t contact_sides = 0, wall_contacts = 0;  ///< a pair of grains has two sides
@@ -154,6 +156,7 @@ struct Simulation::Impl {
   void move_walls(double time_s);
   void advance();      ///< forces of the last step and its second half kick (if pending), first half kick, drift
   void finish_step();  ///< forces and second half kick now
+  bool watch_block(std::size_t block, const MoveBook& moved);  ///< whether a grain of it has strayed, after its move
   bool strayed() const;
   bool list_is_stale() const;
   void rebuild_list();

@@ -107,6 +107,7 @@ void Simulation::Impl::rebuild_list() {
   list_valid = true;
   ++stats.list_builds;
   books.resize(static_cast<std::size_t>(blocks()));
+  for (BlockBook& b : books) b.watch = StrayWatch();
 }
 
 void Simulation::Impl::rebuild_walls(const std::vector<std::int32_t>& old_slot) {

@@ -7,6 +7,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dem/simulation/pair_lanes.cpp"
 #include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -306,13 +307,17 @@ HWY_INLINE void kick(Row8& m, const Row8& load, const Row8& rate, const Row8& fa
 
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) {
   const D d;
-  const double dt = v.time_step, half = 0.5 * dt;
+  const hn::CappedTag<double, 4> d4;
+  constexpr std::size_t kLanes4 = hn::MaxLanes(hn::CappedTag<double, 4>());
+  hn::Vec<hn::CappedTag<double, 4>> farthest[4 / kLanes4];
+  for (std::size_t k = 0; k < 4; k += kLanes4) farthest[k / kLanes4] = hn::Load(d4, book.relative + k);
+  const double half = 0.5 * v.time_step;
+  alignas(32) const double dt[4] = {v.time_step, v.time_step, v.time_step, 0};
   LoadRow fall, none, ones, ones_below;
   for (int k = 0; k < 3; ++k) fall.v[k] = half * v.gravity.v[k], ones.v[k] = ones_below.v[k + 3] = 1;
   const Row8 force_lanes = load_row(ones.v), torque_lanes = load_row(ones_below.v);
   const Row8 falls = load_row(fall.v), rests = load_row(none.v);
   for (std::size_t s = start; s < end; ++s) {
-    const Sphere& from = v.sphere[s];
     const double inverse_mass = v.motion[s].inverse_mass, inverse_inertia = v.motion[s].inverse_inertia;
     Row8 m = load_row(reinterpret_cast<const double*>(v.motion + s)), load, rate;
     if (v.sum != nullptr) {
@@ -330,21 +335,31 @@ void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook
     const Row8& fall_here = inverse_mass > 0 ? falls : rests;
     if (v.sum != nullptr) kick(m, load, rate, fall_here);
     kick(m, load, rate, fall_here);
+    alignas(64) double row[8];
     auto* motion = reinterpret_cast<double*>(v.next_motion + s);
-    for (int k = 0; k < kParts; ++k) hn::Store(m.part[k], d, motion + k * kLanes);
-    const double vx = motion[0], vy = motion[1], vz = motion[2];
-    Sphere& to = v.next_sphere[s];
-    to.x = from.x + ((vx * dt + v.snap[0]) - v.snap[0]);
-    to.y = from.y + ((vy * dt + v.snap[1]) - v.snap[1]);
-    to.z = from.z + ((vz * dt + v.snap[2]) - v.snap[2]);
-    to.r = from.r;
-    if (s < v.anchored) {
-      const double allowance = static_cast<double>(v.anchor[s].allowance);
-      book.strayed |= !(v.anchor[s].strayed2(to.x, to.y, to.z, v.listed_for) <= allowance * allowance);  // NaN strays
+    for (int k = 0; k < kParts; ++k) {
+      hn::Store(m.part[k], d, row + k * kLanes);
+      if (v.stream)
+        hn::Stream(m.part[k], d, motion + k * kLanes);
+      else
+        hn::Store(m.part[k], d, motion + k * kLanes);
     }
+    // The radius stands behind the position: its lanes of time, snap and centre are 0.
+    for (std::size_t k = 0; k < 4; k += kLanes4) {
+      const auto velocity = hn::Load(d4, row + k), snap = hn::LoadU(d4, v.snap + k);
+      const auto way = hn::Sub(hn::Add(hn::Mul(velocity, hn::Load(d4, dt + k)), snap), snap);
+      const auto to = hn::Add(hn::Load(d4, &v.sphere[s].x + k), way);
+      if (v.stream)
+        hn::Stream(to, d4, &v.next_sphere[s].x + k);
+      else
+        hn::Store(to, d4, &v.next_sphere[s].x + k);
+      farthest[k / kLanes4] = hn::Max(hn::Abs(hn::Sub(velocity, hn::LoadU(d4, v.centre + k))), farthest[k / kLanes4]);
+    }
+    const double vx = row[0], vy = row[1], vz = row[2];
     const double speed2 = vx * vx + vy * vy + vz * vz;
     if (!(speed2 <= book.speed2)) book.speed2 = speed2, book.fastest = s;  // NaN wins
   }
+  for (std::size_t k = 0; k < 4; k += kLanes4) hn::Store(farthest[k / kLanes4], d4, book.relative + k);
 }
 }  // namespace venato::dem::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -360,6 +375,7 @@ void find_touching(const PairView& v, std::size_t from, std::size_t to, PairChun
 }
 void load_lanes(const PairView& v, const std::uint32_t* pair, int count, PairBatch& b) { HWY_DYNAMIC_DISPATCH(load_lanes)(v, pair, count, b); }
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book) { HWY_DYNAMIC_DISPATCH(move_grains)(v, start, end, book); }
+void flush_stream() { hwy::FlushStream(); }
 std::uint32_t add_lanes(const PairView& v, const std::uint32_t* pair, int count, const PairBatch& b, double watch) {
   return HWY_DYNAMIC_DISPATCH(add_lanes)(v, pair, count, b, watch);
 }

@@ -59,22 +59,24 @@ struct MoveView {
   const Motion* motion;
   Sphere* next_sphere;
   Motion* next_motion;
-  const Anchor* anchor;
-  std::size_t anchored;  ///< slots below have an anchor
   const LoadRow* sum;    ///< [grain of the block] forces; null: take `load` instead
   const Load* load;      ///< [slot]
-  double time_step, listed_for;
-  LoadRow gravity;  ///< (g, 0)
-  double snap[4];
+  double time_step;
+  LoadRow gravity;   ///< (g, 0)
+  double snap[4];    ///< the last is 0
+  double centre[4];  ///< velocity that MoveBook::relative counts from; the last is 0
+  bool stream;       ///< next_* past the caches: nobody reads them before the caches have forgotten them
 };
 struct MoveBook {
-  bool strayed = false;
   double speed2 = 0;
   std::size_t fastest = ~std::size_t{0};  ///< slot; all ones = nobody moves
+  alignas(32) double relative[4] = {};    ///< largest |velocity - centre| of each axis; a NaN may be missing, speed2 has it
 };
 
 /// Second half kick of the last step (if forces are given), first half kick of this one, drift: start … end - 1 from sphere, motion to next_*.
 void move_grains(const MoveView& v, std::size_t start, std::size_t end, MoveBook& book);
+/// What was written past the caches stands in memory for the other threads to see.
+void flush_stream();
 
 /// Puts histories back and adds the forces to the sums, contact by contact in their order. \return lanes (one bit each) whose overlap is above
 /// `watch` radii of the smaller grain

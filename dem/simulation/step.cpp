@@ -9,6 +9,7 @@ namespace venato::dem {
 namespace {
 constexpr std::int64_t kClockedBlocks = 16;  // one block in so many is timed
 constexpr std::size_t kFetchFrom = 4000;     // grains: smaller systems live in the caches anyway
+constexpr std::size_t kStreamFrom = 60000;   // grains: of larger systems (50 MB) no cache keeps a grain until the next step
 constexpr std::size_t kGrainsPerFetch = 8, kLinesPerFetch = 40;
 
 class Stopwatch {
@@ -130,9 +131,8 @@ void Simulation::Impl::note_crossings(std::size_t block) {
 
 MoveView Simulation::Impl::move_view(const BlockScratch& mine) const {
   MoveView v{};
-  v.sphere = sphere.data(), v.motion = motion.data(), v.anchor = anchor.data(), v.anchored = std::min(anchor.size(), sphere.size());
-  v.load = load.data();
-  v.time_step = setup.time_step_s, v.listed_for = static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s;
+  v.sphere = sphere.data(), v.motion = motion.data(), v.load = load.data();
+  v.time_step = setup.time_step_s, v.stream = sphere.size() >= kStreamFrom;
   for (int a = 0; a < 3; ++a) v.gravity.v[a] = setup.gravity_m_s2[a], v.snap[a] = snap[static_cast<std::size_t>(a)];
   v.sum = pending ? mine.sum : nullptr;
   return v;
@@ -148,7 +148,8 @@ void Simulation::Impl::fetch_block(FetchAhead& ahead, std::size_t block) const {
   ahead.add(sphere.data() + s, n), ahead.add(motion.data() + s, n);
   ahead.add(pairs.own.data() + first, count), ahead.add(pairs.touching.data() + first, count), ahead.add(pairs.place.data() + first, count);
   ahead.add(pairs.contacts[block].rows.data(), BlockContacts::lines(pairs.contacts[block].used, pairs.history_width));
-  ahead.add(anchor.data() + s, n), ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
+  if (books[block].watch.near_look()) ahead.add(anchor.data() + s, n);
+  if (sphere.size() < kStreamFrom) ahead.add(next_sphere.data() + s, n), ahead.add(next_motion.data() + s, n);
   ahead.add_partners(pairs.partner.data() + first, count, sphere.data(), motion.data());
   if (block + 1 < nb)
     ahead.add(pairs.partner.data() + pairs.block_first[block + 1],
@@ -182,6 +183,7 @@ void Simulation::Impl::advance() {
             const double t = clocked ? omp_get_wtime() : 0;
             MoveView v = move_view(mine);
             v.next_sphere = next_sphere.data(), v.next_motion = next_motion.data();
+            std::copy_n(book.watch.centre, 4, v.centre);
             MoveBook moved;
             for (std::size_t s = start; s < end; s += kGrainsPerFetch) {
               move_grains(v, s, std::min(end, s + kGrainsPerFetch), moved);
@@ -189,7 +191,9 @@ void Simulation::Impl::advance() {
               if (pending) mine.ahead.some(kLinesPerFetch);
             }
             if (pending) mine.ahead.rest();
-            book.strayed = moved.strayed, book.speed2 = moved.speed2;
+            if (v.stream) flush_stream();
+            book.strayed = watch_block(b, moved);
+            book.speed2 = moved.speed2;
             book.fastest = moved.fastest < card.size() ? card[moved.fastest].id : -1;
             if (!counters.empty()) note_crossings(b);
             if (clocked) clock.integrate += omp_get_wtime() - t;
@@ -201,6 +205,15 @@ void Simulation::Impl::advance() {
   sphere.swap(next_sphere);
   motion.swap(next_motion);
   share_out(stats, omp_get_wtime() - began, clocks);
+}
+
+bool Simulation::Impl::watch_block(std::size_t b, const MoveBook& moved) {
+  StrayWatch& watch = books[b].watch;
+  const double rounding = 4e-16 * (snap[0] + snap[1] + snap[2]);
+  if (watch.all_within(moved.relative, setup.time_step_s, rounding) && std::isfinite(moved.speed2)) return false;
+  const std::size_t start = PairList::block_start(b), anchored = std::min(block_end(b), anchor.size()), n = anchored > start ? anchored - start : 0;
+  return watch.look({next_sphere.data() + start, n}, {anchor.data() + start, n},
+                    static_cast<double>(step_count + 1 - step_of_build) * setup.time_step_s);
 }
 
 bool Simulation::Impl::strayed() const {

@@ -169,7 +169,7 @@ TEST(Cost, counts_grains_steps_and_particle_steps) {
   EXPECT_NEAR(cost.particles, 2000, 1e-6);
   EXPECT_NEAR(cost.steps, std::ceil(2 / step), 0.5);
   EXPECT_NEAR(cost.particle_steps * step, 1000 * 2 + 1000 * (2 - 1.0), 1e-6);  // rain is there from 1.0 s on average
-  EXPECT_GT(cost.memory_bytes, 2000 * 1000);
+  EXPECT_GT(cost.memory_bytes, 2000 * 790);
   EXPECT_NEAR(estimate_cost(c, 1).seconds / cost.seconds, 2, 1e-12);
   c.duration_s = 0;
   EXPECT_THROW(estimate_cost(c, 1), UsageError);
