@@ -31,6 +31,7 @@ libopencv-video-dev      registration by optical flow and ECC
 libopencv-features2d-dev registration by features
 libopencv-calib3d-dev    registration: robust pose
 libtiff-dev              N-ink printer files
+libdeflate-dev           compresses their strips at twice the rate of zlib
 libassimp-dev            hopper and gate meshes (STL, OBJ)
 '
 check_packages='

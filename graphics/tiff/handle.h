@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <vector>
+#include "graphics/tiff/deflate.h"
 #include "graphics/tiff/tiff_file.h"
 struct tiff;
 namespace venato::graphics::detail {
@@ -32,7 +33,8 @@ void set_coding_tags(tiff* t, const TiffInfo& info, std::int64_t height);
 /// Everything else: inks, polarity, resolution, texts.
 void set_description_tags(tiff* t, const TiffInfo& info);
 
-/// Compresses one strip on its own, in memory, exactly as libtiff would inside a file. One object per thread; keeps its buffer.
+/// Compresses one strip on its own, in memory: 8 bit deflate by libdeflate, everything else exactly as libtiff would inside a file. One object per
+/// thread; keeps its buffers.
 class StripEncoder {
  public:
   /// \param rows whole rows of the strip \return bytes valid until the next call. \throws WorkError
@@ -40,5 +42,6 @@ class StripEncoder {
 
  private:
   std::vector<std::uint8_t> memory_;
+  DeflateStrip deflate_;
 };
 }  // namespace venato::graphics::detail

@@ -94,6 +94,8 @@ TiffHandle open_tiff_writer(int descriptor, const std::string& name, bool big_ti
 
 std::span<const std::uint8_t> StripEncoder::encode(const TiffInfo& info, std::span<const std::uint8_t> rows) {
   const std::int64_t row_bytes = info.width * info.channels * bytes_per_sample(info);
+  if (info.compression == TiffCompression::deflate && bytes_per_sample(info) == 1)
+    return deflate_.encode(rows, static_cast<std::size_t>(row_bytes), static_cast<std::size_t>(info.channels));
   const std::int64_t height = static_cast<std::int64_t>(rows.size()) / row_bytes;
   memory_.clear();
   memory_.reserve(rows.size() + rows.size() / 2 + 4096);

@@ -28,8 +28,8 @@ struct TiffInfo {
 
 /// Strip writer: rows top to bottom in any chunk; strips are compressed in parallel (threads) in memory and written in order: same bytes for
 /// any thread count and chunk height. Written under a partial name; close() fsyncs and renames; without close() nothing stays behind.
-/// Deflate is level 1. Measured on 6 inks at 360 dpi, MB/s of samples per core, smooth / with dither noise: deflate 310 / 190 (17 : 1 / 3.3 : 1),
-/// LZW 260 / 120 (19 : 1 / 3.2 : 1), packbits 560 / 370 (2.1 : 1 / 1.8 : 1). Classic TIFF ends at 4 GiB: set big_tiff above.
+/// Deflate of 8 bit samples is libdeflate's level 1 (tests/bench/RESULTS.md). libtiff's coders on 6 inks at 360 dpi, MB/s of samples per core, smooth
+/// / with dither noise: LZW 260 / 120 (19 : 1 / 3.2 : 1), packbits 560 / 370 (2.1 : 1 / 1.8 : 1). Classic TIFF ends at 4 GiB: set big_tiff above.
 /// \throws WorkError naming the path (disk full, permission, more than 4 GiB without big_tiff).
 class TiffStripWriter {
  public:

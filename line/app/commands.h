@@ -9,5 +9,6 @@ int validate_command(const Options& options, Context& context);
 int describe_command(const Options& options);
 int dem_command(const Options& options, Context& context);
 int sync_command(const Options& options, Context& context);
+int masks_command(const Options& options, Context& context);
 int report_command(const Options& options, Context& context);
 }  // namespace venato::line::app

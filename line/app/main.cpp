@@ -26,6 +26,7 @@ int dispatch(const Options& o) {
   if (o.command == "validate") return validate_command(o, context);
   if (o.command == "dem") return dem_command(o, context);
   if (o.command == "sync") return sync_command(o, context);
+  if (o.command == "masks") return masks_command(o, context);
   return report_command(o, context);
 }
 
@@ -47,8 +48,9 @@ int main(int argc, char** argv) {
     return fail(kUsage, e.what());
   } catch (const Interrupted& e) {
     fail(kStopped, e.what());
-    return fail(kStopped, parsed.options.command == "dem" ? "stopped; the same command with --resume goes on from the last checkpoint"
-                                                          : "stopped; run again to resume from the last checkpoint");
+    return fail(kStopped, parsed.options.command == "dem"     ? "stopped; the same command with --resume goes on from the last checkpoint"
+                          : parsed.options.command == "masks" ? "stopped; nothing was written"
+                                                              : "stopped; run again to resume from the last checkpoint");
   } catch (const WorkError& e) {
     return fail(kFailed, e.what());
   } catch (const std::bad_alloc&) {

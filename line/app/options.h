@@ -11,9 +11,12 @@ struct Options {
   std::vector<std::string> overrides;
   int threads = 0;  ///< 0 = all cores this process may use
   bool quiet = false, json_log = false, schema = false, dem = false;
-  bool resume = false, restart = false, profile = false;  ///< of a DEM case
-  double until_s = 0;                                     ///< of a DEM case; 0 = to its end
-  double vein_pitch_mm = 0, graphic_pitch_mm = 0;         ///< 0 = from the file
+  bool resume = false, restart = false, profile = false;                                                      ///< of a DEM case
+  double until_s = 0;                                                                                         ///< of a DEM case; 0 = to its end
+  double dpi = 0;                                                                                             ///< of masks; 0 = the run's
+  std::string compression = "deflate", print_polarity = "zero-is-no-ink", ink_polarity = "zero-is-full-ink";  ///< of masks
+  bool powders_at_print_resolution = false;
+  double vein_pitch_mm = 0, graphic_pitch_mm = 0;  ///< 0 = from the file
 };
 struct Parsed {
   Options options;

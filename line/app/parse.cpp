@@ -85,6 +85,25 @@ Parsed parse(int argc, const char* const* argv) {
       "Example:\n  venato sync --vein-map out/demo/vein_map.tif --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
       "Exit 1 when the pictures do not belong together.");
 
+  auto* masks = app.add_subcommand("masks", "printer files of a finished run again: another resolution, compression or polarity, nothing simulated");
+  masks->add_option("RUN", o.input, "run folder")->required();
+  masks->add_option("--dpi", o.dpi, "of the print files (default: the run's print_dpi)")->check(CLI::Range(10.0, 1200.0))->type_name("DPI");
+  masks->add_option("--compression", o.compression, "deflate (default), lzw, packbits or none")
+      ->check(CLI::IsMember({"deflate", "lzw", "packbits", "none"}))
+      ->type_name("KIND");
+  const auto polarity = CLI::IsMember({"zero-is-no-ink", "zero-is-full-ink"});
+  masks->add_option("--print-polarity", o.print_polarity, "of print.tif: zero-is-no-ink (default) or zero-is-full-ink")
+      ->check(polarity)
+      ->type_name("P");
+  masks->add_option("--ink-polarity", o.ink_polarity, "of the grey file of each ink: zero-is-full-ink (default) or zero-is-no-ink")
+      ->check(polarity)
+      ->type_name("P");
+  masks->add_flag("--powders-at-print-resolution", o.powders_at_print_resolution, "powder masks at the print's dpi instead of the vein map's pitch");
+  add_out(*masks, o), add_common(*masks, o);
+  masks->footer(
+      "Example:\n  venato masks out/demo -o out/demo_360 --dpi 360\nAll files appear together at the end or not at all; the disk is checked first. "
+      "The graphic's pictures must be where and what they\nwere when the run was made.");
+
   auto* report = app.add_subcommand("report", "rebuilds report.html of a finished run");
   report->add_option("RUN", o.input, "run folder")->required();
   add_common(*report, o);

@@ -1,6 +1,5 @@
 #include "base/store/store.h"
 #include "line/chain/run_line.h"
-#include "sync/mask/mask_job.h"
 namespace venato::line {
 namespace {
 
@@ -19,7 +18,7 @@ sync::PowderMask powder_mask(const graphics::VeinMap& map, int powder, double sc
 }  // namespace
 
 void write_mask_files(const std::filesystem::path& folder, const LineConfig& c, const LineRun& run, const std::vector<LoadedLayer>& layers,
-                      Context& context) {
+                      const MaskChoices& choices, Context& context) {
   const auto& registration = run.sync.registration;
   // The printer sees the slab after drying: everything given in the green frame shrinks with it.
   const double dried = 1 - c.basics.drying_shrinkage;
@@ -40,6 +39,10 @@ void write_mask_files(const std::filesystem::path& folder, const LineConfig& c, 
   job.width_m = size.width_m * dried;
   job.height_m = size.length_m * dried;
   job.dpi = c.graphic.print_dpi;
+  job.compression = choices.compression;
+  job.print_polarity = choices.print_polarity;
+  job.ink_file_polarity = choices.ink_file_polarity;
+  job.powders_at_print_resolution = choices.powders_at_print_resolution;
   for (int k = 0; k < static_cast<int>(run.vein_map.powders.size()); ++k) job.powders.push_back(powder_mask(run.vein_map, k, dried));
   for (const auto& h : run.chain.state.commands.heads) job.feeds.push_back(feed_file(h));
   sync::write_masks(job, folder, context);

@@ -109,7 +109,7 @@ void write_run_json(const std::filesystem::path& file, const LineConfig& c, cons
                  {"system",
                   {{"code_version", version_string()},
                    {"seed", c.basics.seed},
-                   {"config_file", c.file.string()},
+                   {"config_file", std::filesystem::absolute(c.file).string()},
                    {"config_sha256", sha256_hex(c.resolved_json)},
                    {"threads", context.threads},
                    {"cpu", cpu_model_name()},

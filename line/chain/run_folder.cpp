@@ -1,43 +1,25 @@
 #include "line/chain/run_folder.h"
 
-#include <signal.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <charconv>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/io/atomic_file.h"
+#include "base/io/stale_partials.h"
 namespace venato::line {
 namespace fs = std::filesystem;
 namespace {
 constexpr std::string_view kPrefix = ".venato-partial-";
 
-bool process_lives(long pid) { return ::kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM; }
-
-/// Leftovers of processes that no longer run.
-void clear_stale(const fs::path& out) {
-  std::error_code ec;
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::directory_iterator(out, ec)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kPrefix)) continue;
-    long pid = 0;
-    const auto digits = std::string_view(name).substr(kPrefix.size());
-    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), pid);
-    if (parsed.ec == std::errc{} && parsed.ptr == digits.data() + digits.size() && pid > 0 && !process_lives(pid)) stale.push_back(entry.path());
-  }
-  for (const auto& path : stale) fs::remove_all(path, ec);
-}
 }  // namespace
 
 RunFolder::RunFolder(fs::path out) : out_(std::move(out)), staging_(out_ / (std::string(kPrefix) + std::to_string(::getpid()))) {
   std::error_code ec;
   created_ = !fs::exists(out_, ec);
   make_output_folder(out_);
-  clear_stale(out_);
+  clear_stale_partials(out_, kPrefix);
   fs::create_directory(staging_, ec);
   if (ec) throw UsageError(out_.string() + ": cannot be written to: " + ec.message());
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/h5/h5_file.h"
+#include "base/io/sha256.h"
 #include "base/version.h"
 #include "line/chain/run_line.h"
 namespace venato::line {
@@ -100,6 +101,7 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& c, const 
   h5.attribute("/", "config", c.resolved_json);
   raster(h5, "/plan/fraction", run.plan.fraction, "1", "design", "target share of each powder", "powder");
   h5.strings("/plan/powders", run.plan.powders, {"1", "powder", "none", "names of the powders in channel order"});
+  double position = 0;  // of the head along the line; a file's groups are in alphabetical order
   for (const auto& h : run.chain.state.commands.heads) {
     const std::string name = "/commands/" + h.name;
     h5.dataset(name, h.duty, {static_cast<std::uint64_t>(h.ticks), static_cast<std::uint64_t>(h.prongs)},
@@ -108,6 +110,8 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& c, const 
     h5.attribute(name, "tick_s", h.tick_s);
     h5.attribute(name, "belt_speed_m_s", h.belt_speed_m_s);
     h5.attribute(name, "full_rate_kg_m2", h.full_rate_kg_m2);
+    h5.attribute(name, "powder", h.powder);
+    h5.attribute(name, "position", position++);
   }
   for (std::size_t s = 0; s < run.operators.size(); ++s) write_operator_group(h5, run.chain.stages[s].name, run.operators[s]);
   const auto& slab = run.slab();
@@ -127,7 +131,11 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& c, const 
   raster(h5, "/registration/print_vein_fraction", run.sync.print_fraction, "1", "print", "vein share of the graphic, as found by the plan's rule");
   write_transform(h5, "/registration/print_from_green", run.sync.registration.print_from_green,
                   run.sync.registration.success ? "registration" : "rejected registration, not used");
+  h5.attribute("/registration/print_from_green/affine", "success", run.sync.registration.success ? 1.0 : 0.0);
   write_transform(h5, "/registration/nominal", run.sync.nominal, "file as designed");
+  std::vector<std::string> hashes;
+  for (const auto& layer : c.graphic.layers) hashes.push_back(sha256_of_file(layer.image));
+  h5.strings("/graphic/sha256", hashes, {"1", "layer", "none", "SHA-256 of the picture of each layer of the graphic"});
   raster(h5, "/registration/sigma", run.sync.registration.sigma_m, "m", "green", "predicted error of the registration");
   write_residuals(h5, "/residuals/before", run.sync.residuals_before);
   write_residuals(h5, "/residuals/after", run.sync.residuals_after);

@@ -124,7 +124,7 @@ RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, 
   clock.lap("registration");
 
   const auto& staging = folder.staging();
-  write_mask_files(staging / "masks", config, run, layers, context);
+  write_mask_files(staging / "masks", config, run, layers, {}, context);
   clock.lap("masks");
   write_vein_map(staging / "vein_map.tif", run.vein_map, context.threads);
   write_figures(staging, config, run, design, flatten_layers(layers, false));

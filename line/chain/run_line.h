@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 #include "line/chain/sync_step.h"
+#include "sync/mask/mask_job.h"
 namespace venato::line {
 
 struct Figure {
@@ -41,8 +42,15 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& config, c
 void write_run_json(const std::filesystem::path& file, const LineConfig& config, const LineRun& run, const Context& context);
 void write_score_json(const std::filesystem::path& file, const SyncResult& sync);
 void write_vein_map(const std::filesystem::path& file, const graphics::VeinMap& map, int threads);
+/// Of the printer files, what no config key says.
+struct MaskChoices {
+  graphics::TiffCompression compression = graphics::TiffCompression::deflate;
+  sync::Polarity print_polarity = sync::Polarity::zero_is_no_ink, ink_file_polarity = sync::Polarity::zero_is_full_ink;
+  bool powders_at_print_resolution = false;
+};
+/// Needs of the run: vein_map, sync.registration, sync.nominal, chain.state.commands.
 void write_mask_files(const std::filesystem::path& folder, const LineConfig& config, const LineRun& run, const std::vector<LoadedLayer>& layers,
-                      Context& context);
+                      const MaskChoices& choices, Context& context);
 /// Draws figures/ and lists them in run.figures.
 void write_figures(const std::filesystem::path& run_folder, const LineConfig& config, LineRun& run, const graphics::Raster8& design,
                    const graphics::Raster8& print_srgb);

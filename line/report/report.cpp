@@ -100,13 +100,22 @@ std::string Page::scores() const {
       {"Centre line, median", "mm along the vein normal; 0 is best", [](const auto& m) { return fixed(m.median_mm, 2); }, true},
       {"Centre line, P95", "mm; 95 % of the matched length is closer", [](const auto& m) { return fixed(m.p95_mm, 2); }, true},
       {"Matched length", "% of the print's vein length that found its body vein", [](const auto& m) { return fixed(m.matched * 100, 1); }, true},
+      {"Body vein without print", "% of the body's vein length", [](const auto& m) { return fixed(m.missing_percent, 1); }, true},
+      {"Print without body vein", "% of the print's vein length", [](const auto& m) { return fixed(m.extra_percent, 1); }, true},
       {"Offset", "mm, signed mean: a constant shift shows here", [](const auto& m) { return fixed(m.offset_mm, 2); }, false},
+      {"Centre line, largest", "mm; partners are sought within 15 mm", [](const auto& m) { return fixed(m.max_mm, 2); }, false},
+      {"Body vein without print", "mm of centre line", [](const auto& m) { return fixed(m.missing_mm, 0); }, false},
+      {"Print without body vein", "mm of centre line", [](const auto& m) { return fixed(m.extra_mm, 0); }, false},
       {"Boundary F1 at 1 mm", "0 to 1; outlines that agree within 1 mm", [](const auto& m) { return fixed(m.f1_1, 3); }, false},
       {"Boundary F1 at 2 mm", "", [](const auto& m) { return fixed(m.f1_2, 3); }, false},
       {"Boundary F1 at 3 mm", "", [](const auto& m) { return fixed(m.f1_3, 3); }, false},
+      {"clDice", "0 to 1; centre lines that lie inside the other vein", [](const auto& m) { return fixed(m.cl_dice, 3); }, false},
       {"Dice", "0 to 1; shared vein area", [](const auto& m) { return fixed(m.dice, 3); }, false},
-      {"Body vein without print", "mm of centre line", [](const auto& m) { return fixed(m.missing_mm, 0); }, false},
-      {"Print without body vein", "mm of centre line", [](const auto& m) { return fixed(m.extra_mm, 0); }, false}};
+      {"ASSD", "mm between outlines, mean; flatters errors near the vein width", [](const auto& m) { return fixed(m.assd_mm, 2); }, false},
+      {"HD95", "mm between outlines, 95th percentile", [](const auto& m) { return fixed(m.hd95_mm, 2); }, false},
+      {"Vein area", "% more (+) or less (-) than the body's", [](const auto& m) { return fixed(m.area_percent, 1); }, false},
+      {"Vein width", "mm wider (+) or narrower (-) than the body's, median", [](const auto& m) { return fixed(m.width_mm, 2); }, false},
+      {"Direction", "-1 to 1; 1 = parallel where both lie", [](const auto& m) { return fixed(m.direction, 3); }, false}};
   std::string out =
       "<div class=\"scroll score\"><table><tr><th>Score</th><th class=\"n\">before</th><th class=\"n\">after</th><th class=\"n\">best "
       "reachable</th><th>meaning</th></tr>\n";

@@ -26,7 +26,7 @@ std::string plain(double v) {
 ReportMetrics metrics(const Json& score, const char* which) {
   const Json& m = score.at(which);
   const Json& more = score.at("details").at(which);
-  const auto detail = [&](const char* key) { return more.is_object() ? number(more.at(key)) : std::numeric_limits<double>::quiet_NaN(); };
+  const auto detail = [&](const char* key) { return more.is_object() && more.contains(key) ? number(more.at(key)) : std::numeric_limits<double>::quiet_NaN(); };
   return {number(m.at("centreline_error_mm").at("median")),
           number(m.at("centreline_error_mm").at("p95")),
           detail("centreline_offset_mm"),
@@ -36,7 +36,16 @@ ReportMetrics metrics(const Json& score, const char* which) {
           number(m.at("boundary_f1").at("3mm")),
           number(m.at("dice")),
           detail("missing_length_mm"),
-          detail("extra_length_mm")};
+          detail("extra_length_mm"),
+          detail("missing_length_percent"),
+          detail("extra_length_percent"),
+          detail("centreline_max_mm"),
+          detail("cl_dice"),
+          detail("assd_mm"),
+          detail("hd95_mm"),
+          detail("area_error_percent"),
+          detail("width_error_mm"),
+          detail("direction_coherence")};
 }
 
 std::map<std::string, double> numbers(const Json& object) {

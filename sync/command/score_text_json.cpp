@@ -29,9 +29,19 @@ Json contract(const std::optional<Metrics>& m) {
 
 Json more(const std::optional<Metrics>& m) {
   if (!m) return nullptr;
+  const auto share = [](double part, double whole) { return number(whole > 0 ? 100 * part / whole : kNone); };
   return {{"centreline_offset_mm", number(m->centreline_offset_m * 1e3)},
+          {"centreline_max_mm", number(m->centreline_max_m * 1e3)},
+          {"matched_length_mm", number(m->matched_length * m->print_length_m * 1e3)},
           {"missing_length_mm", number(m->missing_length_m * 1e3)},
+          {"missing_length_percent", share(m->missing_length_m, m->body_length_m)},
           {"extra_length_mm", number(m->extra_length_m * 1e3)},
+          {"extra_length_percent", share(m->extra_length_m, m->print_length_m)},
+          {"area_error_percent", number(m->area_error * 100)},
+          {"body_width_mm", number(m->body_width_m * 1e3)},
+          {"print_width_mm", number(m->print_width_m * 1e3)},
+          {"width_error_mm", number((m->print_width_m - m->body_width_m) * 1e3)},
+          {"direction_coherence", number(m->direction_coherence)},
           {"iou", number(m->iou)},
           {"cl_dice", number(m->cl_dice)},
           {"hd95_mm", number(m->hd95_m * 1e3)},

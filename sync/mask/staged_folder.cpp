@@ -7,13 +7,18 @@
 
 #include "base/error.h"
 #include "base/io/atomic_file.h"
+#include "base/io/stale_partials.h"
 
 namespace venato::sync {
 namespace fs = std::filesystem;
+namespace {
+constexpr const char* kPrefix = ".partial-";
+}
 
 StagedFolder::StagedFolder(fs::path final_folder) : final_(std::move(final_folder)) {
   make_output_folder(final_);
-  staging_ = final_ / (".partial-" + std::to_string(::getpid()));
+  clear_stale_partials(final_, kPrefix);
+  staging_ = final_ / (kPrefix + std::to_string(::getpid()));
   std::error_code error;
   fs::remove_all(staging_, error);
   fs::create_directory(staging_, error);

@@ -5,7 +5,7 @@
 namespace venato::sync {
 
 /// Files that must appear together: written into a hidden folder beside their final place and moved at the end.
-/// Destroyed without publish(), it leaves nothing behind.
+/// Destroyed without publish(), it leaves nothing behind; what a killed program left is cleared by the next one.
 class StagedFolder {
  public:
   /// \throws UsageError when `final_folder` cannot be made or written to.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include "sync/score/distance.h"
+#include "sync/score/sample.h"
 namespace venato::sync {
 namespace {
 constexpr int kDirectionSteps = 5;  // skeleton pixels each way that give the direction: two vein widths of a thin vein
@@ -81,15 +82,6 @@ std::vector<int> within(const Skeleton& s, int start, int steps) {
     front.swap(next);
   }
   return found;
-}
-
-double bilinear(const graphics::RasterF& f, Point px) {  // pixel centres at integers; the rim continues outward
-  const double x = std::clamp(px.x(), 0.0, f.width - 1.0), y = std::clamp(px.y(), 0.0, f.height - 1.0);
-  const int i = std::min(static_cast<int>(x), std::max(0, f.width - 2)), j = std::min(static_cast<int>(y), std::max(0, f.height - 2));
-  const int i1 = std::min(i + 1, f.width - 1), j1 = std::min(j + 1, f.height - 1);
-  const double fx = x - i, fy = y - j;
-  return (1 - fy) * ((1 - fx) * static_cast<double>(f.at(i, j)) + fx * static_cast<double>(f.at(i1, j))) +
-         fy * ((1 - fx) * static_cast<double>(f.at(i, j1)) + fx * static_cast<double>(f.at(i1, j1)));
 }
 
 /// 3 x 3 binomial smoothing of the mask, 0..1: takes the staircase out of its edges without closing gaps.

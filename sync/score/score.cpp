@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "sync/score/centreline.h"
 #include "sync/score/distance.h"
+#include "sync/score/shape.h"
 namespace venato::sync {
 namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -66,19 +67,6 @@ void boundary_metrics(const graphics::Raster8& body, const graphics::Raster8& pr
   m.hd95_m = there.empty() ? kNone : std::max(percentile(there, 0.95), percentile(back, 0.95));
 }
 
-/// Median and P95 by length: samples of one link share its length equally, and links are 1 or sqrt 2 pixels.
-double weighted_quantile(std::vector<std::pair<double, double>> value_length, double q) {
-  if (value_length.empty()) return kNone;
-  std::sort(value_length.begin(), value_length.end());
-  double total = 0;
-  for (const auto& v : value_length) total += v.second;
-  double sum = 0;
-  for (const auto& v : value_length) {
-    sum += v.second;
-    if (sum >= q * total) return v.first;
-  }
-  return value_length.back().first;
-}
 }  // namespace
 
 Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& print, const ScoreConfig& config) {
@@ -94,7 +82,7 @@ Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& prin
   boundary_metrics(body, print, m);
 
   const std::vector<CentreLink> body_links = centre_links(body, config.min_width_m), print_links = centre_links(print, config.min_width_m);
-  double matched = 0, total = 0, signed_sum = 0;
+  double matched = 0, total = 0, signed_sum = 0, body_matched = 0;
   std::vector<std::pair<double, double>> residuals;
   // Lines thinner than min_width_m are not scored, but they are partners: a thin print line inside a wide body vein is no missing vein.
   for (const NormalResidual& r : normal_residuals(print_links, centre_links(body, 0), config)) {
@@ -105,12 +93,19 @@ Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& prin
     residuals.emplace_back(std::abs(r.signed_distance_m), r.length_m);
   }
   for (const NormalResidual& r : normal_residuals(body_links, centre_links(print, 0), config))
-    if (!r.matched) m.missing_length_m += r.length_m;
+    (r.matched ? body_matched : m.missing_length_m) += r.length_m;
+  m.body_length_m = body_matched + m.missing_length_m;
+  m.print_length_m = total;
   m.matched_length = ratio(matched, total);
   m.extra_length_m = total - matched;
   m.centreline_median_m = weighted_quantile(residuals, 0.5);
   m.centreline_p95_m = weighted_quantile(residuals, 0.95);
+  m.centreline_max_m = weighted_quantile(residuals, 1);
   m.centreline_offset_m = matched > 0 ? signed_sum / matched : kNone;
+  m.area_error = n_body > 0 ? n_print / n_body - 1 : kNone;
+  m.body_width_m = median_width_m(body_links);
+  m.print_width_m = median_width_m(print_links);
+  m.direction_coherence = direction_coherence(body, print);
   return m;
 }
 

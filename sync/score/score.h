@@ -9,12 +9,16 @@ namespace venato::sync {
 /// How well print veins and body veins line up (registration_print.md 2.1). Both masks in the green frame, same pitch, 0/255.
 struct Metrics {
   double centreline_median_m = 0, centreline_p95_m = 0,
-         centreline_offset_m = 0;                   ///< along the vein normal, on matched length; NaN if nothing matched
+         centreline_offset_m = 0, centreline_max_m = 0;  ///< along the vein normal, on matched length; NaN if nothing matched
   double matched_length = 0;                        ///< 0..1 of the print's centre-line length
   double missing_length_m = 0, extra_length_m = 0;  ///< body vein without print; print without body
   double boundary_f1_1mm = 0, boundary_f1_2mm = 0, boundary_f1_3mm = 0;
   double dice = 0, iou = 0, cl_dice = 0;
   double hd95_m = 0, assd_m = 0;
+  double body_length_m = 0, print_length_m = 0;     ///< centre-line length that was scored
+  double area_error = 0;                            ///< (print area - body area) / body area; NaN without body veins
+  double body_width_m = 0, print_width_m = 0;       ///< median local vein width, by length; NaN without veins
+  double direction_coherence = 0;                   ///< -1..1, see direction_coherence(); NaN without overlap
 };
 struct ScoreConfig {
   double search_m = 0.015, min_width_m = 0.0015, direction_tolerance_rad = 0.5236, sample_step_m = 0.0005;

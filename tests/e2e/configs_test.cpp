@@ -31,7 +31,7 @@ TEST(Configs, ReferenceAndSchemaKnowEveryKeyOfTheDemo) {
 
 TEST(Configs, EveryVerbHasHelpWithAnExample) {
   TempFolder t;
-  for (const char* verb : {"run", "validate", "describe-config", "dem", "sync", "report"}) {
+  for (const char* verb : {"run", "validate", "describe-config", "dem", "sync", "masks", "report"}) {
     const auto ran = run_venato(t, std::string(verb) + " --help");
     EXPECT_EQ(ran.code, 0) << verb;
     EXPECT_NE(ran.out.find("Example"), std::string::npos) << verb;

@@ -121,5 +121,8 @@ TEST_F(Scripts, WrongUsageExitsWithTwo) {
   EXPECT_EQ(run(VENATO_SOURCE_DIR "/check --nonsense").exit_code, 2);
   EXPECT_EQ(run(VENATO_SOURCE_DIR "/run no_such_config.json").exit_code, 2);
   EXPECT_EQ(run(VENATO_SOURCE_DIR "/run --help").exit_code, 0);
+  EXPECT_EQ(run(VENATO_SOURCE_DIR "/tests/fuzz/run many").exit_code, 2);
+  EXPECT_EQ(run(VENATO_SOURCE_DIR "/tests/fuzz/run --seconds").exit_code, 2);
+  EXPECT_EQ(run(VENATO_SOURCE_DIR "/tests/fuzz/run --help").exit_code, 0);
 }
 }  // namespace venato

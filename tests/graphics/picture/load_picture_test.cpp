@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <opencv2/imgcodecs.hpp>
 
 #include "graphics/graphic.h"
@@ -145,6 +146,33 @@ TEST(LoadPicture, TooLargeIsRefusedFromTheHeader) {
   write_tiff(folder / "a.tif", test_pattern(100, 100, 1), TiffInfo{}, 1);
   expect_usage_error([&] { load_picture(folder / "a.tif", 1e-3, 9999); }, folder / "a.tif", "limit");
   EXPECT_NO_THROW(load_picture(folder / "a.tif", 1e-3, 10000));
+}
+
+TEST(LoadPicture, HundredKilobytesThatClaimAMillionByAMillionPixelsAreRefusedAtOnce) {
+  const TempFolder folder;
+  const auto refused_at_once = [&](const std::string& name, std::string bytes, const std::string& reason, double max_pixels) {
+    spill(folder / name, bytes);
+    const auto start = std::chrono::steady_clock::now();
+    expect_usage_error([&] { load_picture(folder / name, 1e-3, max_pixels); }, folder / name, reason);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.5);  // touching 10^12 px takes minutes
+  };
+  const std::string filler(100000, 'x');
+  const std::string png = kPng + ihdr(1000000, 1000000) + chunk("IDAT", filler) + chunk("IEND", "");
+  // JPEG sizes end at 65535: SOI, frame header, scan header, data, EOI.
+  const std::string jpeg = std::string("\xff\xd8\xff\xc0\x00\x0b\x08\xff\xff\xff\xff\x01\x01\x11\x00", 15) +
+                           std::string("\xff\xda\x00\x08\x01\x01\x00\x00\x3f\x00", 10) + filler + "\xff\xd9";
+  // Little-endian TIFF, one strip of 100 kB.
+  std::string tiff("II\x2a\x00\x08\x00\x00\x00\x09\x00", 10);
+  const std::uint32_t tags[][2] = {{256, 1000000}, {257, 1000000}, {258, 8}, {259, 8}, {262, 1}, {273, 122}, {277, 1}, {278, 1000000}, {279, 100000}};
+  for (const auto& tag : tags)
+    for (const std::uint32_t word : {tag[0] | 4u << 16, 1u, tag[1]})
+      for (int k = 0; k < 4; ++k) tiff += static_cast<char>(word >> 8 * k);
+  tiff += std::string(4, '\0') + filler;
+  for (const double limit : {2.5e8, 1e18}) {  // also when the caller would take any size
+    refused_at_once("a.png", png, "1000000 x 1000000 px", limit);
+    refused_at_once("a.jpg", jpeg, "65535 x 65535 px", limit);
+    refused_at_once("a.tif", tiff, "1000000 x 1000000 px", limit);
+  }
 }
 
 TEST(LoadPicture, CorruptPngIsRefused) {
