@@ -79,7 +79,7 @@ std::vector<Observation> observe(const std::vector<BlockMatch>& blocks, const BS
 }
 }  // namespace
 
-NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Transform& start, Context& context) {
+NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Transform& start, Context& context, PhaseClock& clock) {
   NonrigidResult out;
   out.map = start;
   const double width = green.value.width_m(), height = green.value.height_m();
@@ -90,10 +90,12 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
       const Feature half_print = downsample(print, kSharpnessFactor), half_green = downsample(green, kSharpnessFactor);
       sharpness = equal_sharpness(half_green, warp_to_green(half_print, out.map, half_green.value.width, half_green.value.height, context.threads));
     }
+    clock.lap("equal sharpness");
     const double pixel = green.value.pitch_m * level.factor;
     const Feature green_level = smooth(downsample(green, level.factor), sharpness.blur_green_m / pixel);
     const Feature print_level = smooth(downsample(print, level.factor), sharpness.blur_print_m / pixel);
     const Feature texture = smooth(green_level, kTextureSmoothing_m / pixel);
+    clock.lap("level pictures");
     const BSplineField reference = project_field(start.u, make_zero_field(width, height, level.spacing_m * scale));
     const bool last = &level == std::end(kLevels) - 1;
     FitSettings fit{level.lambda, std::max(kRobust_m, green_level.value.pitch_m), 4};
@@ -102,7 +104,9 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
       const double search = std::max(3 * green_level.value.pitch_m, (pass == 0 ? 1.0 : 0.5) * level.search_m);
       const BlockSettings settings{level.half_m * scale, level.spacing_m * scale / 2, search};
       const Feature warped = warp_to_green(print_level, out.map, green_level.value.width, green_level.value.height, context.threads);
+      clock.lap("warps");
       BlockResult blocks = match_blocks(green_level, texture, warped, settings, context.threads);
+      clock.lap(level.factor == 1 ? "block matching at 1 mm" : "block matching coarser");
       std::vector<Observation> observations = observe(blocks.matches, out.map.u);
       BSplineField previous = out.map.u;
       for (int doubling = 0;; ++doubling) {
@@ -117,6 +121,7 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
         }
         fit.lambda *= 2;
       }
+      clock.lap("spline fits");
       if (last && pass + 1 == kPassesPerLevel) {
         std::vector<Observation> fitted;
         for (std::size_t k = 0; k < observations.size(); ++k) {
@@ -130,6 +135,7 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
         out.last_level = settings;
         out.blur_print_m = sharpness.blur_print_m;
         out.blur_green_m = sharpness.blur_green_m;
+        clock.lap("spline fits");
       }
     }
   }

@@ -84,10 +84,13 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
       std::max(green.value.width_m() * green.value.height_m(), print.value.width_m() * print.value.height_m()) / (kPitch_m * kPitch_m);
   const double pitch = kPitch_m * std::max(1.0, std::sqrt(pixels / kMaxPixels));
 
+  PhaseClock clock(out.phases);
   context.progress.begin("registration", 4, "steps");
   const Feature green_base = resample(green, pitch), print_base = resample(print, pitch);
+  clock.lap("rasters");
   const double grain = std::max(wanted_smoothing_m(green_base), wanted_smoothing_m(print_base));
   const Features green_features = make_features(green_base, as_picture, grain), print_features = make_features(print_base, as_picture, grain);
+  clock.lap("features");
   const double min_contrast = as_picture ? kMinContrastLightness : kMinContrastFraction;
   for (const auto& [f, name] : {std::pair(&green_features, "slab"), std::pair(&print_features, "graphic")}) {
     if (!(f->contrast >= min_contrast)) {
@@ -125,6 +128,7 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   }
   if (context.stop_requested()) throw Interrupted("registration stopped");
   context.progress.at(2);
+  clock.lap("pose search");
 
   const int width = green_features.signed_evidence.value.width, height = green_features.signed_evidence.value.height;
   Features target = print_features;
@@ -136,12 +140,14 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
     return out;
   }
   context.progress.at(3);
+  clock.lap("affine refinement");
 
   const Transform start = prior ? prepend(*prior, pose.pose, width * pitch, height * pitch) : pose.pose;
   Feature print_signed = as_picture ? band_pass(print_base, grain, footprint(print_base, green_base, start)) : print_features.signed_evidence;
   if (pose.polarity < 0)
     for (float& v : print_signed.value.data) v = -v;
-  const NonrigidResult fit = fit_nonrigid(green_features.signed_evidence, print_signed, start, context);
+  clock.lap("start of the displacement");
+  const NonrigidResult fit = fit_nonrigid(green_features.signed_evidence, print_signed, start, context, clock);
   out.pose_only = start;
   out.pose_only.u = {};
   out.print_from_green = fit.map;
@@ -151,6 +157,7 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
               fit.jacobian.max));
   } else {
     judge(green_features, search, pose, fit, print_signed, config, start.u, context.threads, out);
+    clock.lap("gates and error map");
   }
   context.progress.end();
   return out;
