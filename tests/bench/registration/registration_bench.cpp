@@ -110,6 +110,7 @@ struct Runner {
       note(settings[k].kind, "ours", r.success, e, seconds);
       std::printf("pair %zu %s, %s: %s median %.3f P95 %.3f mm, %.2f s", k, scene.name.c_str(), settings[k].kind.c_str(),
                   r.success ? "found" : r.reason.c_str(), s::at_quantile(e, 0.5), s::at_quantile(e, 0.95), seconds);
+      for (const sync::Gate& g : r.gates) std::printf(" %s=%.3g", g.name.c_str(), g.value);
       if (!settings[k].portion) {
         ++whole_faces;
         for (const sync::Phase& p : r.phases) {
