@@ -23,7 +23,7 @@ struct BlockResult {
 /// NCC block matching: integer peak, one Newton step on the NCC for the sub-pixel part, information matrix W = -Hessian v / (1 - v) from a
 /// least-squares quadratic on 5 x 5 (its top is not used for the position: biased by 0.1-0.2 mm).
 /// \param green, warped_print  same grid
-/// \param texture  the slab picture smoothed against noise: says where veins are (`textured`: standard deviation >= 0.25 of the picture's)
+/// \param texture  the slab picture smoothed against noise, any pitch: says where veins are (`textured`: standard deviation >= 0.25 of the picture's)
 /// Rejected: texture below 0.08 of the picture's standard deviation, peak below 0.2 (below 0.5 where the texture is under 0.25), peak on the rim of
 /// the search, less than 70 % valid. Source: registration_print.md 1.3 step 3.
 BlockResult match_blocks(const Feature& green, const Feature& texture, const Feature& warped_print, const BlockSettings& settings, int threads);

@@ -13,8 +13,9 @@ struct RefinedPose {
 };
 /// Coarse (8 mm) refinement of every candidate in every allowed polarity, fine (4 mm) refinement of the best two; returns the one with the
 /// highest ECC value. Singular values of A must stay within [0.95, 1.06], the overlap above config.min_overlap.
+/// \param green, print  signed evidence
 /// \param factor_4mm  features' pixels per 4 mm
-RefinedPose refine_poses(const Features& green, const Features& print, const std::vector<PoseCandidate>& candidates, int factor_4mm,
+RefinedPose refine_poses(const Feature& green, const Feature& print, const std::vector<PoseCandidate>& candidates, int factor_4mm,
                          const RegistrationConfig& config, bool polarity_known, int threads);
 /// ECC of the given affine map without optimising, at most `iterations` steps from it. Exposed for tests.
 RefinedPose refine_affine(const Feature& green, const Feature& print, const Transform& start, int polarity, int iterations, double min_overlap);

@@ -11,10 +11,13 @@ constexpr double kSmoothing_px = 0.75;                      // 3 mm at 4 mm/px; 
 constexpr int kCoarseIterations = 50, kFineIterations = 80;
 constexpr double kEpsilon = 1e-6;
 constexpr std::size_t kFineCandidates = 2;
+constexpr double kSamePlace_m = 0.030;  // half of what the pose search tells apart; ECC reaches farther on its smoothed pictures
+constexpr double kSameShape = 0.01;
+constexpr double kRivalScore = 0.5;     // the best wrong place had at most 1.48 times the next (registration_print.md 1.5 T2)
 
 cv::Mat as_mat(const Feature& f, float sign) {
   cv::Mat m(f.value.height, f.value.width, CV_32F);
-  const auto mean = static_cast<float>(moments(f).mean);
+  const auto mean = static_cast<float>(moments(f, 1).mean);
   for (int j = 0; j < f.value.height; ++j)
     for (int i = 0; i < f.value.width; ++i) m.at<float>(j, i) = f.valid.at(i, j) ? sign * (f.value.at(i, j) - mean) : 0;
   return m;
@@ -80,18 +83,24 @@ RefinedPose refine_affine(const Feature& green, const Feature& print, const Tran
   return out;
 }
 
-RefinedPose refine_poses(const Features& green, const Features& print, const std::vector<PoseCandidate>& candidates, int factor_4mm,
+RefinedPose refine_poses(const Feature& green, const Feature& print, const std::vector<PoseCandidate>& candidates, int factor_4mm,
                          const RegistrationConfig& config, bool polarity_known, int threads) {
   struct Try {
     Transform start;
     int polarity;
   };
   std::vector<Try> tries;
+  const Point centre(green.value.width_m() / 2, green.value.height_m() / 2);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    // The gradient and the signed feature mostly agree on the best place: refine it once.
-    const bool repeated = std::any_of(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(k), [&](const PoseCandidate& c) {
-      return c.turn == candidates[k].turn && (c.pose.a - candidates[k].pose.a).norm() < 1e-9 && (c.pose.t - candidates[k].pose.t).norm() < 1e-9;
+    // The gradient and the signed feature mostly agree on the best place: refine it once. Places far below their feature's best are no rivals.
+    const PoseCandidate& c = candidates[k];
+    const bool repeated = std::any_of(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(k), [&](const PoseCandidate& o) {
+      return o.turn == c.turn && (o.pose(centre) - c.pose(centre)).norm() < kSamePlace_m;
     });
+    const double best = std::max_element(candidates.begin(), candidates.end(), [&](const PoseCandidate& l, const PoseCandidate& r) {
+                          return std::pair(l.from_gradient == c.from_gradient, l.score) < std::pair(r.from_gradient == c.from_gradient, r.score);
+                        })->score;
+    if (c.score < kRivalScore * best) continue;
     if (repeated) continue;
     tries.push_back({candidates[k].pose, 1});
     if (!polarity_known) tries.push_back({candidates[k].pose, -1});
@@ -100,7 +109,7 @@ RefinedPose refine_poses(const Features& green, const Features& print, const std
   none.why_not = "no place of the graphic correlates with the slab over the required overlap";
   if (tries.empty()) return none;
 
-  const auto level = [&](const Features& f, int factor) { return smooth(downsample(f.signed_evidence, factor), kSmoothing_px); };
+  const auto level = [&](const Feature& f, int factor) { return smooth(downsample(f, factor, threads), kSmoothing_px, threads); };
   const Feature green_coarse = level(green, 2 * factor_4mm), print_coarse = level(print, 2 * factor_4mm);
   std::vector<RefinedPose> coarse(tries.size());
   const int count = static_cast<int>(tries.size());
@@ -113,6 +122,14 @@ RefinedPose refine_poses(const Features& green, const Features& print, const std
                    [](const RefinedPose& l, const RefinedPose& r) { return std::pair(l.ok, l.ecc) > std::pair(r.ok, r.ecc); });
   if (!coarse.front().ok) return coarse.front();
   coarse.erase(std::find_if(coarse.begin(), coarse.end(), [](const RefinedPose& r) { return !r.ok; }), coarse.end());
+  // Candidates that ended at one place are one.
+  std::vector<RefinedPose> distinct;
+  for (const RefinedPose& r : coarse)
+    if (std::none_of(distinct.begin(), distinct.end(), [&](const RefinedPose& d) {
+          return d.polarity == r.polarity && (d.pose(centre) - r.pose(centre)).norm() < kSamePlace_m && (d.pose.a - r.pose.a).norm() < kSameShape;
+        }))
+      distinct.push_back(r);
+  coarse = std::move(distinct);
   coarse.resize(std::min(coarse.size(), kFineCandidates));
 
   const Feature green_fine = level(green, factor_4mm), print_fine = level(print, factor_4mm);

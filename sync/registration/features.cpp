@@ -12,32 +12,51 @@ constexpr double kNoiseShare = 0.125;
 constexpr double kRim = 1.6;  // sigmas from the border: there 95 % of a Gaussian lies inside
 constexpr double kGradient_m = 0.0020, kLocalMean_m = 0.030;
 constexpr float kGradientClip = 4;
+constexpr double kStructure_m = 0.003, kEdgeGrid_m = 0.002;  // edges are smoothed by 2 mm and more: finer pixels add nothing
 
-/// (d/dx, d/dy) by central differences; 0 and invalid where a neighbour is invalid.
-struct Slopes {
-  Feature x, y;
-};
-Slopes slopes(const Feature& f) {
-  Slopes s{f, f};
+bool has_neighbours(const Feature& f, int i, int j) {
+  return i > 0 && j > 0 && i + 1 < f.value.width && j + 1 < f.value.height && f.valid.at(i - 1, j) && f.valid.at(i + 1, j) && f.valid.at(i, j - 1) &&
+         f.valid.at(i, j + 1);
+}
+/// (d/dx, d/dy) by central differences [1/px].
+Point slope(const Feature& f, int i, int j) {
+  return Point(static_cast<double>(f.value.at(i + 1, j) - f.value.at(i - 1, j)), static_cast<double>(f.value.at(i, j + 1) - f.value.at(i, j - 1))) / 2;
+}
+/// Edge strength; 0 and invalid where a neighbour is invalid.
+Feature edges(const Feature& f, int threads) {
   const int w = f.value.width, h = f.value.height;
+  Feature out{graphics::RasterF(w, h, 1, f.value.pitch_m), graphics::Raster8(w, h, 1, f.value.pitch_m)};
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
-      const std::size_t k = f.value.index(i, j);
-      const bool ok =
-          i > 0 && j > 0 && i + 1 < w && j + 1 < h && f.valid.at(i - 1, j) && f.valid.at(i + 1, j) && f.valid.at(i, j - 1) && f.valid.at(i, j + 1);
-      s.x.value.data[k] = ok ? (f.value.at(i + 1, j) - f.value.at(i - 1, j)) / 2 : 0;
-      s.y.value.data[k] = ok ? (f.value.at(i, j + 1) - f.value.at(i, j - 1)) / 2 : 0;
-      s.x.valid.data[k] = s.y.valid.data[k] = ok ? 255 : 0;
+      if (!has_neighbours(f, i, j)) continue;
+      out.value.at(i, j) = static_cast<float>(slope(f, i, j).norm());
+      out.valid.at(i, j) = 255;
     }
-  return s;
+  return out;
+}
+Eigen::Matrix2d structure_tensor(const Feature& f, int threads) {
+  std::vector<Eigen::Matrix2d> rows(static_cast<std::size_t>(f.value.height), Eigen::Matrix2d::Zero());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int j = 0; j < f.value.height; ++j)
+    for (int i = 0; i < f.value.width; ++i) {
+      if (!has_neighbours(f, i, j)) continue;
+      const Point g = slope(f, i, j);
+      rows[static_cast<std::size_t>(j)] += g * g.transpose();
+    }
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const Eigen::Matrix2d& r : rows) sum += r;
+  return sum;
 }
 }  // namespace
 
-double wanted_smoothing_m(const Feature& base) {
+int edge_factor(double pitch_m) { return std::max(1, static_cast<int>(std::lround(kEdgeGrid_m / pitch_m))); }
+
+double wanted_smoothing_m(const Feature& base, int threads) {
   const graphics::RasterF& v = base.value;
   std::vector<float> response;
-  for (int j = 1; j + 1 < v.height; j += 2)
-    for (int i = 1; i + 1 < v.width; i += 2) {
+  for (int j = 1; j + 1 < v.height; j += 4)
+    for (int i = 1; i + 1 < v.width; i += 3) {
       bool ok = true;
       for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) ok = ok && base.valid.at(i + x, j + y);
@@ -48,20 +67,21 @@ double wanted_smoothing_m(const Feature& base) {
   if (response.empty()) return kMinGrain_m;
   std::nth_element(response.begin(), response.begin() + static_cast<std::ptrdiff_t>(response.size() / 2), response.end());
   const double noise = static_cast<double>(response[response.size() / 2]) / (0.6745 * 6);  // 6 = norm of the mask
-  const double contrast = moments(smooth(base, kMaxGrain_m / v.pitch_m)).deviation;
+  const int factor = edge_factor(v.pitch_m);
+  const double contrast = moments(smooth(downsample(base, factor, threads), kMaxGrain_m / (factor * v.pitch_m), threads), threads).deviation;
   if (!(contrast > 0)) return kMinGrain_m;
   // A Gaussian of s pixels leaves noise / (2 sqrt(pi) s) of white noise.
   const double sigma_px = noise / (2 * std::sqrt(std::numbers::pi) * kNoiseShare * contrast);
   return std::clamp(sigma_px * v.pitch_m, kMinGrain_m, kMaxGrain_m);
 }
 
-Feature band_pass(const Feature& base, double grain_m, const graphics::Raster8& footprint) {
+Feature band_pass(const Feature& base, double grain_m, const graphics::Raster8& footprint, int threads) {
   const double pitch_m = base.value.pitch_m;
   const double fine_px = std::max(kFine_m, grain_m) / pitch_m;
-  Feature out = without_rim(smooth(base, fine_px), static_cast<int>(std::lround(kRim * fine_px))), inside = base;
+  Feature out = without_rim(smooth(base, fine_px, threads), static_cast<int>(std::lround(kRim * fine_px))), inside = base;
   for (std::size_t k = 0; k < inside.value.data.size(); ++k)
     if (!footprint.data[k]) inside.value.data[k] = inside.valid.data[k] = 0;
-  const Feature background = smooth_and_extend(inside, kCoarse_m / pitch_m);
+  const Feature background = smooth_and_extend(inside, kCoarse_m / pitch_m, threads);
   for (std::size_t k = 0; k < out.value.data.size(); ++k) {
     if (!background.valid.data[k]) out.valid.data[k] = 0;
     out.value.data[k] = out.valid.data[k] ? out.value.data[k] - background.value.data[k] : 0;
@@ -69,33 +89,23 @@ Feature band_pass(const Feature& base, double grain_m, const graphics::Raster8& 
   return out;
 }
 
-Features make_features(const Feature& base, bool as_picture, double grain_m) {
+Features make_features(const Feature& base, bool as_picture, double grain_m, int threads) {
   Features out;
   const double pitch_m = base.value.pitch_m;
-  if (as_picture) {
-    out.signed_evidence = band_pass(base, grain_m, base.valid);
-  } else {
-    out.signed_evidence = smooth(base, grain_m / pitch_m);
-  }
-  out.contrast = moments(out.signed_evidence).deviation;
+  out.signed_evidence = as_picture ? band_pass(base, grain_m, base.valid, threads) : smooth(base, grain_m / pitch_m, threads);
+  out.contrast = moments(out.signed_evidence, threads).deviation;
 
-  const Slopes s = slopes(smooth(base, std::max(kGradient_m, grain_m) / pitch_m));
-  out.gradient = s.x;
-  for (std::size_t k = 0; k < out.gradient.value.data.size(); ++k) out.gradient.value.data[k] = std::hypot(s.x.value.data[k], s.y.value.data[k]);
-  const Feature local = smooth(out.gradient, kLocalMean_m / pitch_m);
+  const int factor = edge_factor(pitch_m);
+  out.gradient = edges(smooth(downsample(base, factor, threads), std::max(kGradient_m, grain_m) / (factor * pitch_m), threads), threads);
+  const Feature local = smooth(out.gradient, kLocalMean_m / (factor * pitch_m), threads);
   // The floor keeps veinless areas, whose local mean is only noise, from being raised to the level of veins.
-  const auto floor = static_cast<float>(0.5 * moments(out.gradient).mean + 1e-12);
+  const auto floor = static_cast<float>(0.5 * moments(out.gradient, threads).mean + 1e-12);
   for (std::size_t k = 0; k < out.gradient.value.data.size(); ++k)
     out.gradient.value.data[k] =
         out.gradient.valid.data[k] ? std::min(kGradientClip, out.gradient.value.data[k] / std::max(floor, local.value.data[k])) : 0;
 
-  const Slopes structure = slopes(smooth(out.signed_evidence, 0.003 / pitch_m));
-  Eigen::Matrix2d tensor = Eigen::Matrix2d::Zero();
-  for (std::size_t k = 0; k < structure.x.value.data.size(); ++k) {
-    const Point g(static_cast<double>(structure.x.value.data[k]), static_cast<double>(structure.y.value.data[k]));
-    tensor += g * g.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(tensor);
+  const Feature small = smooth(downsample(out.signed_evidence, factor, threads), kStructure_m / (factor * pitch_m), threads);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(structure_tensor(small, threads));
   out.weak_direction = eigen.eigenvectors().col(0);
   out.isotropy = eigen.eigenvalues()(1) > 0 ? std::max(0.0, eigen.eigenvalues()(0)) / eigen.eigenvalues()(1) : 0;
   return out;

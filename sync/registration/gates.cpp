@@ -34,23 +34,6 @@ std::string text(const char* format, double a, double b) {
   return buffer;
 }
 
-double global_ncc(const Feature& green, const Feature& print, const Transform& map, int threads) {
-  const Feature seen = warp_to_green(print, map, green.value.width, green.value.height, threads);
-  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
-  for (std::size_t k = 0; k < seen.valid.data.size(); ++k)
-    if (seen.valid.data[k] && green.valid.data[k]) {
-      const double x = static_cast<double>(green.value.data[k]), y = static_cast<double>(seen.value.data[k]);
-      n += 1;
-      a += x;
-      b += y;
-      aa += x * x;
-      bb += y * y;
-      ab += x * y;
-    }
-  const double va = aa - a * a / n, vb = bb - b * b / n;
-  return n > 0 && va > 0 && vb > 0 ? (ab - a * b / n) / std::sqrt(va * vb) : 0;
-}
-
 struct Judged {
   std::vector<double> ncc, across_m, weighted, held_out_m;
 };
@@ -121,7 +104,8 @@ void judge(const Features& green, const PoseSearch& search, const RefinedPose& p
                              : 0;
   const auto zones_with_blocks = std::count_if(out.zones.begin(), out.zones.end(), [](const ZoneConfidence& z) { return z.blocks > 0; });
   const double zone_share = static_cast<double>(zones_with_blocks) / static_cast<double>(out.zones.size());
-  const double whole = global_ncc(green.signed_evidence, print_signed, fit.map, threads);
+  const Feature& slab = green.signed_evidence;
+  const double whole = masked_ncc(slab, warp_to_green(print_signed, fit.map, slab.value.width, slab.value.height, threads), threads);
   double farthest = 0;
   for (int j = 0; j * kSigmaPitch_m <= height; ++j)
     for (int i = 0; i * kSigmaPitch_m <= width; ++i) {

@@ -50,20 +50,23 @@ bool sample(const Feature& f, double x, double y, float& value) {
 }
 }  // namespace
 
-Feature resample(const Evidence& evidence, double pitch_m) {
+Feature resample(const Evidence& evidence, double pitch_m, int threads) {
   const graphics::RasterF& in = evidence.value;
   VENATO_EXPECTS(!in.empty() && in.channels == 1 && in.pitch_m > 0 && pitch_m > 0);
   Feature clean{in, graphics::Raster8(in.width, in.height, 1, in.pitch_m, 255)};
-  for (std::size_t k = 0; k < in.data.size(); ++k)
-    if (!std::isfinite(in.data[k]) || (!evidence.valid.empty() && !evidence.valid.data[k])) {
-      clean.value.data[k] = 0;
-      clean.valid.data[k] = 0;
-    }
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int j = 0; j < in.height; ++j)
+    for (std::size_t k = in.index(0, j); k < in.index(0, j + 1); ++k)
+      if (!std::isfinite(in.data[k]) || (!evidence.valid.empty() && !evidence.valid.data[k])) {
+        clean.value.data[k] = 0;
+        clean.valid.data[k] = 0;
+      }
   const double ratio = pitch_m / in.pitch_m;
   if (std::abs(ratio - 1) < 1e-9) return clean;
   const int w = std::max(1, static_cast<int>(std::lround(in.width / ratio))), h = std::max(1, static_cast<int>(std::lround(in.height / ratio)));
   Feature out{graphics::RasterF(w, h, 1, pitch_m), graphics::Raster8(w, h, 1, pitch_m)};
   if (ratio < 1) {
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (int j = 0; j < h; ++j)
       for (int i = 0; i < w; ++i) {
         float v = 0;
@@ -74,6 +77,7 @@ Feature resample(const Evidence& evidence, double pitch_m) {
     return out;
   }
   const std::vector<Overlap> columns = box_overlaps(w, in.width, ratio), rows = box_overlaps(h, in.height, ratio);
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
       const Overlap &cx = columns[static_cast<std::size_t>(i)], &cy = rows[static_cast<std::size_t>(j)];
@@ -94,12 +98,13 @@ Feature resample(const Evidence& evidence, double pitch_m) {
   return out;
 }
 
-Feature downsample(const Feature& f, int factor) {
+Feature downsample(const Feature& f, int factor, int threads) {
   VENATO_EXPECTS(factor >= 1);
   if (factor == 1) return f;
   const int w = (f.value.width + factor - 1) / factor, h = (f.value.height + factor - 1) / factor;
   const double pitch_m = f.value.pitch_m * factor;
   Feature out{graphics::RasterF(w, h, 1, pitch_m), graphics::Raster8(w, h, 1, pitch_m)};
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
       const int i1 = std::min(f.value.width, (i + 1) * factor), j1 = std::min(f.value.height, (j + 1) * factor);
@@ -117,30 +122,55 @@ Feature downsample(const Feature& f, int factor) {
   return out;
 }
 
-Moments moments(const Feature& f) {
-  Moments m;
-  double sum = 0, squares = 0;
-  for (std::size_t k = 0; k < f.value.data.size(); ++k)
-    if (f.valid.data[k]) {
-      const double v = static_cast<double>(f.value.data[k]);
-      sum += v;
-      squares += v * v;
-      m.count += 1;
+namespace {
+/// Sums of 1, a, b, a^2, b^2, ab over the pixels valid on both sides; rows are added in order, so threads do not change the sum.
+std::array<double, 6> sums(const Feature& a, const Feature& b, int threads) {
+  VENATO_EXPECTS(a.value.width == b.value.width && a.value.height == b.value.height);
+  std::vector<std::array<double, 6>> rows(static_cast<std::size_t>(a.value.height));
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int j = 0; j < a.value.height; ++j) {
+    std::array<double, 6> s{};
+    for (std::size_t k = a.value.index(0, j); k < a.value.index(0, j + 1); ++k) {
+      if (!a.valid.data[k] || !b.valid.data[k]) continue;
+      const double x = static_cast<double>(a.value.data[k]), y = static_cast<double>(b.value.data[k]);
+      s[0] += 1;
+      s[1] += x;
+      s[2] += y;
+      s[3] += x * x;
+      s[4] += y * y;
+      s[5] += x * y;
     }
-  if (m.count == 0) return m;
-  m.mean = sum / m.count;
-  m.deviation = std::sqrt(std::max(0.0, squares / m.count - m.mean * m.mean));
-  return m;
+    rows[static_cast<std::size_t>(j)] = s;
+  }
+  std::array<double, 6> total{};
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < 6; ++k) total[k] += row[k];
+  return total;
+}
+}  // namespace
+
+Moments moments(const Feature& f, int threads) {
+  const std::array<double, 6> s = sums(f, f, threads);
+  if (s[0] == 0) return {};
+  const double mean = s[1] / s[0];
+  return {mean, std::sqrt(std::max(0.0, s[3] / s[0] - mean * mean)), s[0]};
+}
+
+double masked_ncc(const Feature& a, const Feature& b, int threads) {
+  const std::array<double, 6> s = sums(a, b, threads);
+  const double va = s[0] * s[3] - s[1] * s[1], vb = s[0] * s[4] - s[2] * s[2];
+  return va > 0 && vb > 0 ? (s[0] * s[5] - s[1] * s[2]) / std::sqrt(va * vb) : 0;
 }
 
 Feature warp_to_green(const Feature& print, const Transform& print_from_green, int width, int height, int threads) {
   const double pitch = print.value.pitch_m;
   Feature out{graphics::RasterF(width, height, 1, pitch), graphics::Raster8(width, height, 1, pitch)};
+  const RowDisplacement displacement(print_from_green.u, 0.5 * pitch, pitch, width);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int j = 0; j < height; ++j) {
     std::vector<double> ux(static_cast<std::size_t>(width)), uy(ux.size());
     const double y = (j + 0.5) * pitch;
-    displacement_row(print_from_green.u, y, 0.5 * pitch, pitch, width, ux.data(), uy.data());
+    displacement.at(y, width, ux.data(), uy.data());
     for (int i = 0; i < width; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const double gx = (i + 0.5) * pitch + ux[k], gy = y + uy[k];

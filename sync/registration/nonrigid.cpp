@@ -23,42 +23,41 @@ constexpr double kTextureSmoothing_m = 0.003;
 constexpr double kBlurs_m[] = {0.002, 0.003, 0.004, 0.006, 0.008, 0.011, 0.015};
 constexpr double kBlurGain = 0.01;  // smoothing the slab always gains a little by removing noise: ask for more than that
 
-double ncc(const Feature& a, const Feature& b) {
-  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-  for (std::size_t k = 0; k < a.value.data.size(); ++k) {
-    if (!a.valid.data[k] || !b.valid.data[k]) continue;
-    const double x = static_cast<double>(a.value.data[k]), y = static_cast<double>(b.value.data[k]);
-    n += 1;
-    sa += x;
-    sb += y;
-    saa += x * x;
-    sbb += y * y;
-    sab += x * y;
-  }
-  const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;
-  return va > 0 && vb > 0 ? (n * sab - sa * sb) / std::sqrt(va * vb) : 0;
-}
-
 /// How much more the print (or the slab) must be smoothed so that both are equally sharp.
 struct Sharpness {
   double blur_print_m = 0, blur_green_m = 0;
 };
-Sharpness equal_sharpness(const Feature& green, const Feature& warped) {
+Sharpness equal_sharpness(const Feature& green, const Feature& warped, int threads) {
   Sharpness best;
-  const double pixel = green.value.pitch_m, plain = ncc(green, warped);
+  const double pixel = green.value.pitch_m, plain = masked_ncc(green, warped, threads);
   double best_print = plain, best_green = plain + kBlurGain;
-  for (const double blur : kBlurs_m) {
-    if (const double v = ncc(green, smooth(warped, blur / pixel)); v > best_print) {
-      best_print = v;
-      best.blur_print_m = blur;
+  // The NCC has one peak over the blur: two steps down in a row end the search.
+  const auto climb = [&](const Feature& blurred, const Feature& other, double& best_ncc, double& best_blur) {
+    int down = 0;
+    for (const double blur : kBlurs_m) {
+      const double v = masked_ncc(other, smooth(blurred, blur / pixel, threads), threads);
+      if (v > best_ncc) {
+        best_ncc = v;
+        best_blur = blur;
+        down = 0;
+      } else if (++down == 2) {
+        return;
+      }
     }
-    if (const double v = ncc(smooth(green, blur / pixel), warped); v > best_green) {
-      best_green = v;
-      best.blur_green_m = blur;
-    }
-  }
+  };
+  climb(warped, green, best_print, best.blur_print_m);
+  climb(green, warped, best_green, best.blur_green_m);
   (best_print >= best_green ? best.blur_green_m : best.blur_print_m) = 0;
   return best;
+}
+
+/// The picture of one level, in `room` unless it is f or its half itself.
+const Feature& level_picture(const Feature& f, const Feature& half, int factor, double blur_px, int threads, Feature& room) {
+  const Feature& base = factor == 1 ? f : half;
+  if (factor <= 2 && !(blur_px > 0)) return base;
+  room = factor > 2 ? downsample(base, factor / 2, threads) : smooth(base, blur_px, threads);
+  if (factor > 2 && blur_px > 0) room = smooth(room, blur_px, threads);
+  return room;
 }
 
 void rescale_information(std::vector<Observation>& observations) {
@@ -79,21 +78,26 @@ std::vector<Observation> observe(const std::vector<BlockMatch>& blocks, const BS
 }
 }  // namespace
 
-NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Transform& start, Context& context) {
+NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Transform& start, Context& context, PhaseClock& clock) {
   NonrigidResult out;
   out.map = start;
   const double width = green.value.width_m(), height = green.value.height_m();
   const double scale = std::clamp(std::min(width, height) / kFullSize_m, kSmallestScale, 1.0);
+  const Feature small_green = downsample(green, kSharpnessFactor, context.threads), small_print = downsample(print, kSharpnessFactor, context.threads);
+  const Feature half_green = downsample(green, 2, context.threads), half_print = downsample(print, 2, context.threads);
+  const Feature texture = smooth(half_green, kTextureSmoothing_m / half_green.value.pitch_m, context.threads);
+  clock.lap("level pictures");
   for (const Level& level : kLevels) {
     Sharpness sharpness;
-    if (level.factor <= 2) {  // the first level is coarser than any blur worth matching
-      const Feature half_print = downsample(print, kSharpnessFactor), half_green = downsample(green, kSharpnessFactor);
-      sharpness = equal_sharpness(half_green, warp_to_green(half_print, out.map, half_green.value.width, half_green.value.height, context.threads));
-    }
+    if (level.factor <= 2)  // the first level is coarser than any blur worth matching
+      sharpness = equal_sharpness(small_green, warp_to_green(small_print, out.map, small_green.value.width, small_green.value.height, context.threads),
+                                  context.threads);
+    clock.lap("equal sharpness");
     const double pixel = green.value.pitch_m * level.factor;
-    const Feature green_level = smooth(downsample(green, level.factor), sharpness.blur_green_m / pixel);
-    const Feature print_level = smooth(downsample(print, level.factor), sharpness.blur_print_m / pixel);
-    const Feature texture = smooth(green_level, kTextureSmoothing_m / pixel);
+    Feature reduced_green, reduced_print;
+    const Feature& green_level = level_picture(green, half_green, level.factor, sharpness.blur_green_m / pixel, context.threads, reduced_green);
+    const Feature& print_level = level_picture(print, half_print, level.factor, sharpness.blur_print_m / pixel, context.threads, reduced_print);
+    clock.lap("level pictures");
     const BSplineField reference = project_field(start.u, make_zero_field(width, height, level.spacing_m * scale));
     const bool last = &level == std::end(kLevels) - 1;
     FitSettings fit{level.lambda, std::max(kRobust_m, green_level.value.pitch_m), 4};
@@ -102,7 +106,9 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
       const double search = std::max(3 * green_level.value.pitch_m, (pass == 0 ? 1.0 : 0.5) * level.search_m);
       const BlockSettings settings{level.half_m * scale, level.spacing_m * scale / 2, search};
       const Feature warped = warp_to_green(print_level, out.map, green_level.value.width, green_level.value.height, context.threads);
+      clock.lap("warps");
       BlockResult blocks = match_blocks(green_level, texture, warped, settings, context.threads);
+      clock.lap(level.factor == 1 ? "block matching at 1 mm" : "block matching coarser");
       std::vector<Observation> observations = observe(blocks.matches, out.map.u);
       BSplineField previous = out.map.u;
       for (int doubling = 0;; ++doubling) {
@@ -117,6 +123,7 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
         }
         fit.lambda *= 2;
       }
+      clock.lap("spline fits");
       if (last && pass + 1 == kPassesPerLevel) {
         std::vector<Observation> fitted;
         for (std::size_t k = 0; k < observations.size(); ++k) {
@@ -130,6 +137,7 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
         out.last_level = settings;
         out.blur_print_m = sharpness.blur_print_m;
         out.blur_green_m = sharpness.blur_green_m;
+        clock.lap("spline fits");
       }
     }
   }

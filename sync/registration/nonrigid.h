@@ -3,6 +3,7 @@
 #include <vector>
 #include "base/context.h"
 #include "sync/registration/block_match.h"
+#include "sync/registration/phase_clock.h"
 #include "sync/registration/spline_fit.h"
 namespace venato::sync {
 
@@ -17,10 +18,10 @@ struct NonrigidResult {
   int textured = 0;                           ///< blocks of the last pass that ought to have matched
   double blur_print_m = 0, blur_green_m = 0;  ///< extra smoothing of the last level that made both sides equally sharp
   BlockSettings last_level;
-  Eigen::SparseMatrix<double> normal_matrix;
+  BandMatrix normal_matrix{1, 0};
 };
 /// Four levels of block matching and robust spline fits (registration_print.md 1.3 step 3), starting from `start` and bending towards its field.
 /// Slabs whose shorter side is below 0.6 m get blocks and control points scaled down with it.
 /// \param green, print  signed evidence at 1 mm (already of one polarity)
-NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Transform& start, Context& context);
+NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Transform& start, Context& context, PhaseClock& clock);
 }  // namespace venato::sync

@@ -17,9 +17,9 @@ struct PoseSearch {
   double gradient_peak_ratio = 0;         ///< best / next best score more than 60 mm away or in another turn
   double signed_peak_ratio = 0;
 };
-/// Exhaustive masked NCC (Padfield 2012) by FFT over flips, quarter turns, angles and scales of `config`, at features' pitch * factor.
+/// Exhaustive masked NCC (Padfield 2012) by FFT over flips, quarter turns, angles and scales of `config`, near `pitch_m`.
 /// \param polarity_known  signed feature: only positive correlation counts
 /// Source: registration_print.md 1.3 step 1; D. Padfield, IEEE Trans. Image Process. 21 (2012) 2706.
-PoseSearch search_poses(const Features& green, const Features& print, int factor, const RegistrationConfig& config, bool polarity_known, int keep,
+PoseSearch search_poses(const Features& green, const Features& print, double pitch_m, const RegistrationConfig& config, bool polarity_known, int keep,
                         int threads);
 }  // namespace venato::sync

@@ -8,13 +8,14 @@ namespace venato::sync {
 namespace {
 constexpr double kDistinct_m = 0.060;  // candidates nearer than this are the same place (registration_print.md 1.5 T2)
 constexpr int kPeaksPerPose = 6;
+constexpr double kAliasSafety = 0.85;  // the turned slab's box is a little wider than the slab
 constexpr double kMinVarianceShare = 0.02;  // of the whole picture's variance: below it the overlap shows no veins and NCC is noise
 
 struct Grid {  // one normalised feature on the search grid
   cv::Mat value, square, mask;
 };
 Grid normalised(const Feature& f) {
-  const Moments m = moments(f);
+  const Moments m = moments(f, 1);
   const auto mean = static_cast<float>(m.mean), scale = static_cast<float>(m.deviation > 0 ? 1 / m.deviation : 0);
   Grid g;
   g.value.create(f.value.height, f.value.width, CV_32F);
@@ -99,7 +100,7 @@ std::vector<Peak> peaks(const cv::Mat& score, const cv::Mat& ncc, const cv::Mat&
   std::vector<Peak> out;
   cv::Mat work = score.clone();
   const int radius = std::max(1, static_cast<int>(std::lround(kDistinct_m / pitch)));
-  const auto wrap = [](int d, int n) { return d < 0 ? d + n : d; };
+  const auto wrap = [](int d, int n) { return (d % n + n) % n; };
   for (int k = 0; k < kPeaksPerPose; ++k) {
     double best = 0;
     cv::Point at;
@@ -123,7 +124,7 @@ std::vector<Peak> peaks(const cv::Mat& score, const cv::Mat& ncc, const cv::Mat&
 }
 
 /// Masked NCC map of one feature; `n` is the overlap count map.
-void masked_ncc(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, double full_count, double min_overlap, bool positive_only,
+void ncc_maps(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, double full_count, double min_overlap, bool positive_only,
                 cv::Mat& ncc, cv::Mat& score, cv::Mat& overlap) {
   const cv::Mat cross = correlate(fixed.value, moving.value), sum_f = correlate(fixed.value, moving.mask),
                 sum_ff = correlate(fixed.square, moving.mask), sum_m = correlate(fixed.mask, moving.value),
@@ -180,10 +181,13 @@ double pick(std::vector<Found>& found, const std::vector<Pose>& all, int keep, b
 }
 }  // namespace
 
-PoseSearch search_poses(const Features& green, const Features& print, int factor, const RegistrationConfig& config, bool polarity_known, int keep,
+PoseSearch search_poses(const Features& green, const Features& print, double pitch_m, const RegistrationConfig& config, bool polarity_known, int keep,
                         int threads) {
-  const Feature green_features[2] = {downsample(green.gradient, factor), downsample(green.signed_evidence, factor)};
-  const Grid print_grids[2] = {normalised(downsample(print.gradient, factor)), normalised(downsample(print.signed_evidence, factor))};
+  const double fine_m = green.gradient.value.pitch_m;  // twice as coarse as the evidence: factors that end on one grid
+  const int factor = std::max(1, static_cast<int>(std::lround(pitch_m / fine_m))), evidence_factor = factor * edge_factor(green.signed_evidence.value.pitch_m);
+  const auto evidence = [&](const Features& f) { return downsample(f.signed_evidence, evidence_factor, threads); };
+  const Feature green_features[2] = {downsample(green.gradient, factor, threads), evidence(green)};
+  const Grid print_grids[2] = {normalised(downsample(print.gradient, factor, threads)), normalised(evidence(print))};
   const std::vector<Pose> all = poses(config);
   const double pitch = green_features[0].value.pitch_m;
   const Point slab_centre(green_features[0].value.width_m() / 2, green_features[0].value.height_m() / 2);
@@ -197,7 +201,10 @@ PoseSearch search_poses(const Features& green, const Features& print, int factor
     moving_height = std::max(moving_height, static_cast<int>(std::ceil(size.y())) + 1);
   }
   const cv::Size fixed = print_grids[0].value.size();
-  const cv::Size size(cv::getOptimalDFTSize(fixed.width + moving_width), cv::getOptimalDFTSize(fixed.height + moving_height));
+  // Shifts that leave less than the overlap asked for may alias: the two places that share a bin still overlap too little together.
+  const auto room = [&](int moving) { return static_cast<int>(std::ceil((1 - kAliasSafety * config.min_overlap) * moving)); };
+  const auto fft_size = [&](int f, int moving) { return cv::getOptimalDFTSize(std::max({f + room(moving), moving, f})); };
+  const cv::Size size(fft_size(fixed.width, moving_width), fft_size(fixed.height, moving_height));
   Spectra print_spectra[2];
   for (int k = 0; k < 2; ++k)
     print_spectra[k] = {spectrum(print_grids[k].value, size), spectrum(print_grids[k].square, size), spectrum(print_grids[k].mask, size)};
@@ -214,7 +221,7 @@ PoseSearch search_poses(const Features& green, const Features& print, int factor
       const Spectra moving{spectrum(grid.value, size), spectrum(grid.square, size), spectrum(grid.mask, size)};
       const cv::Mat n = correlate(print_spectra[k].mask, moving.mask);
       cv::Mat ncc, score, overlap;
-      masked_ncc(print_spectra[k], moving, n, cv::sum(grid.mask)[0], config.min_overlap, k == 0 || polarity_known, ncc, score, overlap);
+      ncc_maps(print_spectra[k], moving, n, cv::sum(grid.mask)[0], config.min_overlap, k == 0 || polarity_known, ncc, score, overlap);
       found_per_pose[k][static_cast<std::size_t>(p)] =
           peaks(score, ncc, overlap, grid.value.size(), fixed, pitch, turned, all[static_cast<std::size_t>(p)].a * slab_centre);
     }

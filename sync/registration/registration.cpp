@@ -9,7 +9,7 @@ namespace venato::sync {
 namespace {
 constexpr double kPitch_m = 0.001;    // registration_print.md 0: features at 1 px/mm, never at print resolution
 constexpr double kMaxPixels = 2.5e7;  // 5 m x 5 m at 1 mm; larger pictures get a coarser grid
-constexpr double kSmallSlab_m = 1.0;  // below: 4 mm poses, else 6 mm
+constexpr double kSmallSlab_m = 1.0, kSmallPose_m = 0.004, kPose_m = 0.012;  // grid of the pose search
 constexpr double kMinContrastFraction = 0.004, kMinContrastLightness = 0.0015;  // standard deviation that still is a picture of veins
 constexpr double kMinIsotropy = 0.02;                                           // structure tensor; straight stripes have < 0.01
 constexpr double kMinSide_m = 0.08;                                             // two of the smallest blocks
@@ -61,11 +61,11 @@ Transform prepend(const Transform& prior, const Transform& e, double width_m, do
   return out;
 }
 /// Pixels of the print that lie on the valid slab under an affine map (a prior's small field does not matter for a 40 mm background).
-graphics::Raster8 footprint(const Feature& print, const Feature& green, const Transform& pose) {
+graphics::Raster8 footprint(const Feature& print, const Feature& green, const Transform& pose, int threads) {
   Transform green_from_print;
   green_from_print.a = pose.a.inverse();
   green_from_print.t = -(green_from_print.a * pose.t);
-  return warp_to_green(green, green_from_print, print.value.width, print.value.height, 1).valid;
+  return warp_to_green(green, green_from_print, print.value.width, print.value.height, threads).valid;
 }
 }  // namespace
 
@@ -84,10 +84,14 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
       std::max(green.value.width_m() * green.value.height_m(), print.value.width_m() * print.value.height_m()) / (kPitch_m * kPitch_m);
   const double pitch = kPitch_m * std::max(1.0, std::sqrt(pixels / kMaxPixels));
 
+  PhaseClock clock(out.phases);
   context.progress.begin("registration", 4, "steps");
-  const Feature green_base = resample(green, pitch), print_base = resample(print, pitch);
-  const double grain = std::max(wanted_smoothing_m(green_base), wanted_smoothing_m(print_base));
-  const Features green_features = make_features(green_base, as_picture, grain), print_features = make_features(print_base, as_picture, grain);
+  const Feature green_base = resample(green, pitch, context.threads), print_base = resample(print, pitch, context.threads);
+  clock.lap("rasters");
+  const double grain = std::max(wanted_smoothing_m(green_base, context.threads), wanted_smoothing_m(print_base, context.threads));
+  const Features green_features = make_features(green_base, as_picture, grain, context.threads),
+                 print_features = make_features(print_base, as_picture, grain, context.threads);
+  clock.lap("features");
   const double min_contrast = as_picture ? kMinContrastLightness : kMinContrastFraction;
   for (const auto& [f, name] : {std::pair(&green_features, "slab"), std::pair(&print_features, "graphic")}) {
     if (!(f->contrast >= min_contrast)) {
@@ -110,9 +114,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   context.progress.at(1);
 
   const int factor_4mm = std::max(1, static_cast<int>(std::lround(0.004 / pitch)));
-  const double coarse = config.coarse_pitch_m > 0                                                ? config.coarse_pitch_m
-                        : std::min(green.value.width_m(), green.value.height_m()) < kSmallSlab_m ? 0.004
-                                                                                                 : 0.006;
+  const bool small = std::min(green.value.width_m(), green.value.height_m()) < kSmallSlab_m;
+  const double coarse = config.coarse_pitch_m > 0 ? config.coarse_pitch_m : small ? kSmallPose_m : kPose_m;
   PoseSearch search;
   if (prior) {
     // A predicted map names the place; only what ECC can correct is left open.
@@ -120,28 +123,30 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
     search.candidates.push_back(c);
     search.gradient_peak_ratio = search.signed_peak_ratio = 10;
   } else {
-    search = search_poses(green_features, print_features, std::max(1, static_cast<int>(std::lround(coarse / pitch))), config, polarity_known,
-                          kKeepPerFeature, context.threads);
+    search = search_poses(green_features, print_features, coarse, config, polarity_known, kKeepPerFeature, context.threads);
   }
   if (context.stop_requested()) throw Interrupted("registration stopped");
   context.progress.at(2);
+  clock.lap("pose search");
 
   const int width = green_features.signed_evidence.value.width, height = green_features.signed_evidence.value.height;
-  Features target = print_features;
-  if (prior) target.signed_evidence = warp_to_green(print_features.signed_evidence, *prior, width, height, context.threads);
-  const RefinedPose pose = refine_poses(green_features, target, search.candidates, factor_4mm, config, polarity_known, context.threads);
+  const Feature moved = prior ? warp_to_green(print_features.signed_evidence, *prior, width, height, context.threads) : Feature{};
+  const Feature& target = prior ? moved : print_features.signed_evidence;
+  const RefinedPose pose = refine_poses(green_features.signed_evidence, target, search.candidates, factor_4mm, config, polarity_known, context.threads);
   if (!pose.ok) {
     fail(out, {"T1", pose.ecc, 0, false, "an affine pose exists"}, pose.why_not);
     context.progress.end();
     return out;
   }
   context.progress.at(3);
+  clock.lap("affine refinement");
 
   const Transform start = prior ? prepend(*prior, pose.pose, width * pitch, height * pitch) : pose.pose;
-  Feature print_signed = as_picture ? band_pass(print_base, grain, footprint(print_base, green_base, start)) : print_features.signed_evidence;
+  Feature print_signed = as_picture ? band_pass(print_base, grain, footprint(print_base, green_base, start, context.threads), context.threads) : print_features.signed_evidence;
   if (pose.polarity < 0)
     for (float& v : print_signed.value.data) v = -v;
-  const NonrigidResult fit = fit_nonrigid(green_features.signed_evidence, print_signed, start, context);
+  clock.lap("start of the displacement");
+  const NonrigidResult fit = fit_nonrigid(green_features.signed_evidence, print_signed, start, context, clock);
   out.pose_only = start;
   out.pose_only.u = {};
   out.print_from_green = fit.map;
@@ -151,6 +156,7 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
               fit.jacobian.max));
   } else {
     judge(green_features, search, pose, fit, print_signed, config, start.u, context.threads, out);
+    clock.lap("gates and error map");
   }
   context.progress.end();
   return out;

@@ -4,6 +4,7 @@
 #include <vector>
 #include "base/context.h"
 #include "graphics/raster/raster.h"
+#include "sync/registration/phase_clock.h"
 #include "sync/transform/transform.h"
 namespace venato::sync {
 
@@ -47,6 +48,7 @@ struct Registration {
   std::vector<ZoneConfidence> zones;  ///< 200 mm zones of the green frame
   graphics::RasterF sigma_m;          ///< one channel, 10 mm pitch, predicted error
   double internal_residual_m = 0;
+  std::vector<Phase> phases;  ///< wall time of each step
 };
 
 /// Finds print_from_green from two evidence rasters (registration_print.md 1.3): exhaustive masked NCC for the pose, ECC affine for every surviving

@@ -1,7 +1,9 @@
 #pragma once
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
+#include <algorithm>
 #include <span>
 #include <vector>
+#include "sync/registration/band_matrix.h"
 #include "sync/transform/transform.h"
 namespace venato::sync {
 
@@ -19,10 +21,17 @@ struct FitSettings {
 struct FitResult {
   BSplineField u;
   std::vector<double> weight;                 ///< robust weight per observation, 0..1
-  Eigen::SparseMatrix<double> normal_matrix;  ///< lower triangle [1/mm^2]; unknown 2 (j nx + i) + component
+  BandMatrix normal_matrix{1, 0};  ///< [1/mm^2]; unknown 2 NodeOrder(u).at(i, j) + component
+};
+/// Numbering of the control points along the shorter side first, which makes the band of the normal matrix narrow.
+struct NodeOrder {
+  int nx, ny;
+  explicit NodeOrder(const BSplineField& u) : nx(u.nx), ny(u.ny) {}
+  int at(int i, int j) const { return nx <= ny ? j * nx + i : i * ny + j; }
+  int half_band() const { return 2 * (3 * std::min(nx, ny) + 3) + 1; }  ///< control points that meet in one cell are at most 3 apart each way
 };
 /// min sum rho((d - u)^T W (d - u)) + lambda bending(u - reference) over the coefficients of a uniform cubic B-spline. Bending = squared second
-/// differences of the coefficients in x and in y + 2 x squared mixed first differences, per component. Sparse normal equations, Eigen SimplicialLDLT.
+/// differences of the coefficients in x and in y + 2 x squared mixed first differences, per component. Normal equations in a band.
 /// \param reference  field on the wanted grid; the fit is pulled towards its shape (zeros: towards an affine map)
 /// \throws WorkError when the normal matrix cannot be factorised (cannot happen for finite input: a weak ridge keeps it definite)
 FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings);

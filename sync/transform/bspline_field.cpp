@@ -48,29 +48,43 @@ BSplineField make_zero_field(double width_m, double height_m, double spacing_m) 
   return u;
 }
 
-void displacement_row(const BSplineField& u, double y_m, double x0_m, double dx_m, int n, double* ux, double* uy) {
-  if (u.spacing_m <= 0) {
+RowDisplacement::RowDisplacement(const BSplineField& u, double x0_m, double dx_m, int n) : u_(u) {
+  if (u.spacing_m <= 0) return;
+  cells_.reserve(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    const SplineCell c = spline_cell((x0_m + k * dx_m - u.origin_m.x()) / u.spacing_m, u.nx);
+    cells_.push_back({c.first, c.weight});
+  }
+}
+
+void RowDisplacement::at(double y_m, int n, double* ux, double* uy) const {
+  if (u_.spacing_m <= 0) {
     std::fill_n(ux, n, 0.0);
     std::fill_n(uy, n, 0.0);
     return;
   }
-  const SplineCell y = spline_cell((y_m - u.origin_m.y()) / u.spacing_m, u.ny);
-  const auto columns = static_cast<std::size_t>(u.nx);
+  VENATO_EXPECTS(n <= static_cast<int>(cells_.size()));
+  const SplineCell y = spline_cell((y_m - u_.origin_m.y()) / u_.spacing_m, u_.ny);
+  const auto columns = static_cast<std::size_t>(u_.nx);
   std::vector<double> row_x(columns, 0.0), row_y(columns, 0.0);
   for (std::size_t r = 0; r < 4; ++r) {
-    const double* sx = u.cx.data() + (static_cast<std::size_t>(y.first) + r) * columns;
-    const double* sy = u.cy.data() + (static_cast<std::size_t>(y.first) + r) * columns;
+    const double* sx = u_.cx.data() + (static_cast<std::size_t>(y.first) + r) * columns;
+    const double* sy = u_.cy.data() + (static_cast<std::size_t>(y.first) + r) * columns;
     for (std::size_t c = 0; c < columns; ++c) {
       row_x[c] += y.weight[r] * sx[c];
       row_y[c] += y.weight[r] * sy[c];
     }
   }
   for (int k = 0; k < n; ++k) {
-    const SplineCell x = spline_cell((x0_m + k * dx_m - u.origin_m.x()) / u.spacing_m, u.nx);
+    const Cell& x = cells_[static_cast<std::size_t>(k)];
     const double *sx = row_x.data() + x.first, *sy = row_y.data() + x.first;
     ux[k] = x.weight[0] * sx[0] + x.weight[1] * sx[1] + x.weight[2] * sx[2] + x.weight[3] * sx[3];
     uy[k] = x.weight[0] * sy[0] + x.weight[1] * sy[1] + x.weight[2] * sy[2] + x.weight[3] * sy[3];
   }
+}
+
+void displacement_row(const BSplineField& u, double y_m, double x0_m, double dx_m, int n, double* ux, double* uy) {
+  RowDisplacement(u, x0_m, dx_m, n).at(y_m, n, ux, uy);
 }
 
 JacobianRange jacobian_range(const BSplineField& u, double width_m, double height_m, double step_m) {

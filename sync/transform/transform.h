@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 namespace venato::sync {
 using Point = Eigen::Vector2d;  ///< metres; x across, y along, origin top-left corner of the frame
@@ -17,6 +18,21 @@ struct BSplineField {
 };
 /// Field of zeros whose rectangle covers [0, width_m] x [0, height_m] with the given control point spacing. \pre all > 0
 BSplineField make_zero_field(double width_m, double height_m, double spacing_m);
+/// displacement() of the points (x0_m + k dx_m, y), k < n, for many rows y: what depends on x is worked out once. Keeps a reference to the field.
+class RowDisplacement {
+ public:
+  RowDisplacement(const BSplineField& u, double x0_m, double dx_m, int n);
+  /// \param ux, uy [m] n values each are written. \pre n as constructed or less
+  void at(double y_m, int n, double* ux, double* uy) const;
+
+ private:
+  struct Cell {
+    int first;
+    std::array<double, 4> weight;
+  };
+  const BSplineField& u_;
+  std::vector<Cell> cells_;
+};
 /// displacement() of n points (x0_m + k dx_m, y_m): the same values, several times faster (one row of 1-D splines).
 /// \param ux, uy [m] n values each are written
 void displacement_row(const BSplineField& u, double y_m, double x0_m, double dx_m, int n, double* ux, double* uy);

@@ -28,9 +28,9 @@ PeerResult run_elastix(const RasterF& green, const RasterF& print, const sync::T
   PeerResult out;
   fs::remove_all(folder);
   fs::create_directories(folder);
-  const sync::Feature whole = sync::resample({print, {}, sync::EvidenceKind::picture}, print.pitch_m);
+  const sync::Feature whole = sync::resample({print, {}, sync::EvidenceKind::picture}, print.pitch_m, threads);
   sync::Feature placed = sync::warp_to_green(whole, pose, green.width, green.height, threads);
-  const auto mean = static_cast<float>(sync::moments(placed).mean);
+  const auto mean = static_cast<float>(sync::moments(placed, threads).mean);
   for (std::size_t k = 0; k < placed.value.data.size(); ++k)
     if (!placed.valid.data[k]) placed.value.data[k] = mean;
   write_mhd(fs::path(folder) / "fixed.mhd", green);

@@ -75,6 +75,8 @@ struct Runner {
   std::map<std::string, std::map<std::string, Row>> rows;  ///< kind, code
   int covered = 0, zones = 0;
   double smallest_jacobian = 1;
+  std::vector<sync::Phase> phases;  ///< summed over the whole faces
+  int whole_faces = 0;
 
   void note(const std::string& kind, const char* code, bool found, const std::vector<double>& e, double seconds) {
     Row& r = rows[kind][code];
@@ -108,6 +110,15 @@ struct Runner {
       note(settings[k].kind, "ours", r.success, e, seconds);
       std::printf("pair %zu %s, %s: %s median %.3f P95 %.3f mm, %.2f s", k, scene.name.c_str(), settings[k].kind.c_str(),
                   r.success ? "found" : r.reason.c_str(), s::at_quantile(e, 0.5), s::at_quantile(e, 0.95), seconds);
+      for (const sync::Gate& g : r.gates) std::printf(" %s=%.3g", g.name.c_str(), g.value);
+      if (!settings[k].portion) {
+        ++whole_faces;
+        for (const sync::Phase& p : r.phases) {
+          const auto at = std::find_if(phases.begin(), phases.end(), [&](const sync::Phase& q) { return q.name == p.name; });
+          if (at == phases.end()) phases.push_back(p);
+          else at->seconds += p.seconds;
+        }
+      }
       if (r.success) {
         const auto [good, all] = covered_zones(pair, r);
         covered += good;
@@ -178,6 +189,8 @@ struct Runner {
                   t.mean_of(t.seconds));
     std::printf("\nzones whose predicted error covers the true one: %d of %d (%.1f %%)\nleast Jacobian: %.3f\n", covered, zones,
                 zones > 0 ? 100.0 * covered / zones : NAN, smallest_jacobian);
+    if (whole_faces > 0) std::printf("\n| phase (mean of %d whole faces) | s |\n|---|---|\n", whole_faces);
+    for (const sync::Phase& p : phases) std::printf("| %s | %.3f |\n", p.name.c_str(), p.seconds / whole_faces);
     if (total.count("elastix"))
       std::printf("ratio_to_elastix %.2f\n", total["elastix"].mean_of(total["elastix"].seconds) / total["ours"].mean_of(total["ours"].seconds));
   }
