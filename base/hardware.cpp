@@ -1,5 +1,6 @@
 #include "base/hardware.h"
 
+#include <malloc.h>
 #include <sched.h>
 #include <sys/resource.h>
 
@@ -60,6 +61,14 @@ std::string cpu_model_name() {
     if (colon != std::string::npos) return line.substr(colon + 2);
   }
   return "unknown";
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kNever = 1 << 30;  // as large as mallopt() can be told
+  ::mallopt(M_MMAP_THRESHOLD, kNever);
+  ::mallopt(M_TRIM_THRESHOLD, kNever);
+#endif
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace venato::dem {
 namespace {
@@ -107,10 +108,30 @@ void CellGrid::shape_level(Level& level, std::span<const Sphere> spheres, std::s
   }
 }
 
-std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const PeriodicBox& box, int threads) {
+void CellGrid::sort_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, int threads,
+                          std::span<std::int32_t> order) {
+  const std::int64_t m = static_cast<std::int64_t>(members.size());
+  const double box_cells =
+      static_cast<double>(level.axis[0].count) * static_cast<double>(level.axis[1].count) * static_cast<double>(level.axis[2].count);
+  level.number_cells(std::clamp<std::int64_t>(std::llround(std::cbrt(kRodGrains * box_cells / static_cast<double>(m))), 2, kWidestRod));
+  std::vector<std::int32_t> cell(members.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && m > 4096)
+  for (std::int64_t q = 0; q < m; ++q) {
+    const Sphere& s = spheres[static_cast<std::size_t>(members[static_cast<std::size_t>(q)])];
+    cell[static_cast<std::size_t>(q)] =
+        static_cast<std::int32_t>(level.cell(level.axis[0].cell_of(s.x), level.axis[1].cell_of(s.y), level.axis[2].cell_of(s.z)));
+  }
+  level.start.assign(static_cast<std::size_t>(level.cells) + 1, 0);
+  for (const std::int32_t c : cell) ++level.start[static_cast<std::size_t>(c) + 1];
+  for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
+  std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);
+  for (std::size_t q = 0; q < members.size(); ++q) order[static_cast<std::size_t>(next[static_cast<std::size_t>(cell[q])]++)] = members[q];
+}
+
+std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const PeriodicBox& box, int threads, SlotOrder slots) {
   const std::size_t n = spheres.size();
   std::vector<std::int32_t> order(n);
-  levels_.clear();
+  clear();
   if (n == 0) return order;
   double r_max = 0;
   for (const Sphere& s : spheres) r_max = std::max(r_max, s.r);
@@ -120,31 +141,29 @@ std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const
     for (double bound = r_max / 2; level + 1 < kMostLevels && spheres[k].r < bound; bound /= 2) ++level;
     members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(k));
   }
-  std::vector<std::int32_t> cell(n);
-  std::int32_t first = 0;
-  for (const auto& group : members) {
+  std::size_t first = 0, most = 0;
+  double usual = 0;  // largest radius of the level with most grains
+  for (auto& group : members) {
     if (group.empty()) continue;
     Level& level = levels_.emplace_back();
     for (const std::int32_t k : group) level.r_max = std::max(level.r_max, spheres[static_cast<std::size_t>(k)].r);
-    level.first_slot = first;
+    if (group.size() > most) most = group.size(), usual = level.r_max;
+    level.first_slot = static_cast<std::int32_t>(first);
     shape_level(level, spheres, group, box, 2 * level.r_max);
-    const double box_cells =
-        static_cast<double>(level.axis[0].count) * static_cast<double>(level.axis[1].count) * static_cast<double>(level.axis[2].count);
-    level.number_cells(std::clamp<std::int64_t>(std::llround(std::cbrt(kRodGrains * box_cells / static_cast<double>(group.size()))), 2, kWidestRod));
-    const std::int64_t m = static_cast<std::int64_t>(group.size());
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && m > 4096)
-    for (std::int64_t q = 0; q < m; ++q) {
-      const Sphere& s = spheres[static_cast<std::size_t>(group[static_cast<std::size_t>(q)])];
-      cell[static_cast<std::size_t>(q)] =
-          static_cast<std::int32_t>(level.cell(level.axis[0].cell_of(s.x), level.axis[1].cell_of(s.y), level.axis[2].cell_of(s.z)));
-    }
-    level.start.assign(static_cast<std::size_t>(level.cells) + 1, 0);
-    for (std::size_t q = 0; q < group.size(); ++q) ++level.start[static_cast<std::size_t>(cell[q]) + 1];
-    for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
-    std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);
-    for (std::size_t q = 0; q < group.size(); ++q) order[static_cast<std::size_t>(first + next[static_cast<std::size_t>(cell[q])]++)] = group[q];
-    first += static_cast<std::int32_t>(group.size());
+    sort_level(level, spheres, group, threads, std::span(order).subspan(first, group.size()));
+    first += group.size();
+    group = std::vector<std::int32_t>();
   }
-  return order;
+  if (slots == SlotOrder::by_level || levels_.size() == 1) return order;
+  // Blocks of one size only would share nearly every pair of a big and a small grain, and both would compute it.
+  std::vector<std::int32_t> all(n), mixed(n), slot_of(n);
+  std::iota(all.begin(), all.end(), 0);
+  Level together;
+  shape_level(together, spheres, all, box, 2 * usual);
+  sort_level(together, spheres, all, threads, mixed);
+  for (std::size_t k = 0; k < n; ++k) slot_of[static_cast<std::size_t>(mixed[k])] = static_cast<std::int32_t>(k);
+  slot_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) slot_[k] = slot_of[static_cast<std::size_t>(order[k])];
+  return mixed;
 }
 }  // namespace venato::dem

@@ -1,6 +1,6 @@
 #pragma once
 /// Cell grid over spheres, one level per factor of two in radius, so that small grains never search through cells made for big ones.
-/// Grains are put in order (level, rod, cell): a rod is a square of cells in y and z that runs along x, slice by slice, as wide as makes any
+/// A level has its grains in the order (rod, cell): a rod is a square of cells in y and z that runs along x, slice by slice, as wide as makes any
 /// kGrainsPerBlock consecutive grains about a cube: neighbours in space are neighbours in memory, and few pairs cross the border of a block. Cost does
 /// not depend on empty space: the grid spans the occupied extent, and where that is mostly empty its axes are compressed to the occupied slabs.
 #include <algorithm>
@@ -26,18 +26,27 @@ struct PeriodicBox {
   bool periodic(int axis) const { return length[static_cast<std::size_t>(axis)] > 0; }
 };
 
+/// Order of the slots. By level: a run of places is a run of slots, for those who search often. Mixed: big and small grains that are neighbours in
+/// space are neighbours in memory, for those who compute on blocks of slots.
+enum class SlotOrder { by_level, mixed };
+
 class CellGrid {
  public:
   /// \param spheres wrapped into the box in periodic directions; r is the reach of the search, not always the grain's radius
   /// \return order: new slot k holds old slot order[k]
-  std::vector<std::int32_t> build(std::span<const Sphere> spheres, const PeriodicBox& box, int threads);
+  std::vector<std::int32_t> build(std::span<const Sphere> spheres, const PeriodicBox& box, int threads, SlotOrder slots = SlotOrder::by_level);
 
-  /// Calls visit(first_slot, last_slot) for runs of slots that hold every sphere j with |x_j - p| < reach_extra + r_j (and more, once each).
+  /// Slot at a place of the search, by level and cell.
+  std::int32_t slot(std::int32_t place) const { return slot_.empty() ? place : slot_[static_cast<std::size_t>(place)]; }
+  /// [place] slots; empty where every place is its own slot.
+  std::span<const std::int32_t> slots() const { return slot_; }
+
+  /// Calls visit(first, last) for runs of places that hold every sphere j with |x_j - p| < reach_extra + r_j (and more, once each).
   template <class Visit>
   void for_runs_near(double x, double y, double z, double reach_extra, const Visit& visit) const;
 
   double largest_radius() const { return levels_.empty() ? 0 : levels_.front().r_max; }
-  void clear() { levels_.clear(); }
+  void clear() { levels_.clear(), slot_.clear(); }
 
  private:
   struct Axis {
@@ -67,8 +76,12 @@ class CellGrid {
     std::int32_t first_slot = 0;
     std::vector<std::int32_t> start;  ///< [cell + 1], relative to first_slot
   };
-  void shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell);
+  static void shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell);
+  /// Counting sort of the members into the level's cells; ties keep their order. \param order room for them all
+  static void sort_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, int threads,
+                         std::span<std::int32_t> order);
   std::vector<Level> levels_;
+  std::vector<std::int32_t> slot_;
 };
 
 template <class Visit>

@@ -49,7 +49,8 @@ std::size_t near_scan(const NearField& field, std::int32_t i, const std::vector<
   return HWY_DYNAMIC_DISPATCH(near_scan)(field, i, runs, out);
 }
 
-NearField make_near_field(std::span<const Sphere> spheres, std::span<const double> reach, const PeriodicBox& box, int threads) {
+NearField make_near_field(std::span<const Sphere> spheres, std::span<const double> reach, std::span<const std::int32_t> slots,
+                          const PeriodicBox& box, int threads) {
   constexpr double kRounding = 1e-6;  // of the largest coordinate: ten roundings of single precision
   constexpr std::size_t kPadding = 8;
   NearField field;
@@ -63,6 +64,7 @@ NearField make_near_field(std::span<const Sphere> spheres, std::span<const doubl
       extent = std::max(extent, box.length[a]);
     }
   const std::int64_t n = static_cast<std::int64_t>(spheres.size());
+  field.place.resize(slots.size());
 #pragma omp parallel for schedule(static) reduction(max : extent) num_threads(threads) if (threads > 1)
   for (std::int64_t k = 0; k < n; ++k) {
     const Sphere& s = spheres[static_cast<std::size_t>(k)];
@@ -72,10 +74,11 @@ NearField make_near_field(std::span<const Sphere> spheres, std::span<const doubl
   }
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (std::int64_t k = 0; k < n; ++k) {
-    const Sphere& s = spheres[static_cast<std::size_t>(k)];
+    const std::size_t slot = static_cast<std::size_t>(slots.empty() ? static_cast<std::int32_t>(k) : slots[static_cast<std::size_t>(k)]);
+    const Sphere& s = spheres[slot];
     field.grain[static_cast<std::size_t>(k)] = {static_cast<float>(s.x - origin.x), static_cast<float>(s.y - origin.y),
-                                                static_cast<float>(s.z - origin.z),
-                                                static_cast<float>(reach[static_cast<std::size_t>(k)] + kRounding * extent)};
+                                                static_cast<float>(s.z - origin.z), static_cast<float>(reach[slot] + kRounding * extent)};
+    if (!slots.empty()) field.place[slot] = static_cast<std::int32_t>(k);
   }
   return field;
 }

@@ -67,7 +67,8 @@ void find_row(const PairListInput& in, const NearField& field, std::int32_t i, S
   if (in.grid) {
     in.grid->for_runs_near(s.x, s.y, s.z, in.reach[si], take);
     if (search.near.size() < most + 16) search.near.resize(most + 16);
-    found = near_scan(field, i, search.runs, search.near.data());
+    found = near_scan(field, field.place.empty() ? i : field.place[si], search.runs, search.near.data());
+    for (std::size_t k = 0; k < found; ++k) search.near[k] = in.grid->slot(search.near[k]);
   } else {  // the slow obvious way, for tests: everybody, exactly
     search.near.resize(in.spheres.size());
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(in.spheres.size()); ++j)
@@ -160,7 +161,7 @@ void rebuild_pairs(PairList& list, const ContactEstate& estate, const PairListIn
   list.contacts.resize(static_cast<std::size_t>(blocks));
   const int threads = in.threads;
   {
-    const NearField field = make_near_field(in.spheres, in.reach, in.box, threads);
+    const NearField field = make_near_field(in.spheres, in.reach, in.grid ? in.grid->slots() : std::span<const std::int32_t>(), in.box, threads);
 #pragma omp parallel num_threads(threads) if (threads > 1)
     {
       Search search;

@@ -4,7 +4,7 @@
 /// A block (256 grains that are neighbours in space) holds every pair that one of its grains is in. A pair inside the block stands there once; a pair
 /// with a grain of another block stands in both, each with its own copy of the history (mirror images: the contact laws are exactly antisymmetric).
 /// So a block computes the forces on its grains from nothing but positions and velocities of its surroundings, no force ever goes through memory,
-/// and only the pairs across block borders (about a quarter) are computed twice.
+/// and only the pairs across block borders (about a quarter; big and small grains share blocks) are computed twice.
 ///
 /// The pairs of a block stand in the order of their ids (the lower, then the higher). Adding up forces in this order gives every grain its contacts
 /// in ascending order of the partner's id, whatever the list: the same bytes however often lists are made, and no searching while adding. Histories

@@ -79,7 +79,7 @@ void Simulation::Impl::rebuild_list() {
     std::iota(order.begin(), order.end(), 0);
   } else {
     for (std::size_t k = 0; k < spheres.size(); ++k) spheres[k].r = plan.reach[k];
-    order = grid.build(spheres, box, threads);
+    order = grid.build(spheres, box, threads, SlotOrder::mixed);
   }
   spheres = std::vector<Sphere>(), velocity = std::vector<Trio>();  // the search below needs the room
   permute(plan.anchor, order, threads);

@@ -202,7 +202,7 @@ bool Simulation::is_free(const Vec3& position, double radius) const {
   for (std::size_t s = from; s < e.sphere.size() && free; ++s) free = apart(s);
   if (free && from > 0)
     e.grid.for_runs_near(p.x(), p.y(), p.z(), radius + e.farthest_m, [&](std::int32_t a, std::int32_t b) {
-      for (std::int32_t s = a; s < b && free; ++s) free = apart(static_cast<std::size_t>(s));
+      for (std::int32_t s = a; s < b && free; ++s) free = apart(static_cast<std::size_t>(e.grid.slot(s)));
     });
   return free;
 }

@@ -72,7 +72,7 @@ void Simulation::load_state(std::span<const std::uint8_t> bytes) {
   if (!e.setup.brute_force_neighbours && e.listed > 0) {
     std::vector<Sphere> at_build;
     for (std::size_t s = 0; s < e.anchor.size(); ++s) at_build.push_back({e.anchor[s].x, e.anchor[s].y, e.anchor[s].z, e.reach[s]});
-    e.grid.build(at_build, e.box, e.setup.threads);
+    e.grid.build(at_build, e.box, e.setup.threads, SlotOrder::mixed);
   }
   e.books.resize(static_cast<std::size_t>(e.blocks()));
 }

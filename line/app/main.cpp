@@ -37,6 +37,7 @@ int fail(int code, const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const auto parsed = parse(argc, argv);
   if (parsed.finished) return parsed.exit_code;
   watch_stop_signals();

@@ -62,10 +62,17 @@ Transform prepend(const Transform& prior, const Transform& e, double width_m, do
 }
 /// Pixels of the print that lie on the valid slab under an affine map (a prior's small field does not matter for a 40 mm background).
 graphics::Raster8 footprint(const Feature& print, const Feature& green, const Transform& pose, int threads) {
-  Transform green_from_print;
-  green_from_print.a = pose.a.inverse();
-  green_from_print.t = -(green_from_print.a * pose.t);
-  return warp_to_green(green, green_from_print, print.value.width, print.value.height, threads).valid;
+  const Eigen::Matrix2d back = pose.a.inverse();
+  const double pitch = print.value.pitch_m;
+  graphics::Raster8 out(print.value.width, print.value.height, 1, pitch);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int j = 0; j < out.height; ++j)
+    for (int i = 0; i < out.width; ++i) {
+      const Point p = back * (Point(i + 0.5, j + 0.5) * pitch - pose.t) / pitch;
+      if (p.x() >= 0 && p.y() >= 0 && p.x() < green.value.width && p.y() < green.value.height)
+        out.at(i, j) = green.valid.at(static_cast<int>(p.x()), static_cast<int>(p.y()));
+    }
+  return out;
 }
 }  // namespace
 

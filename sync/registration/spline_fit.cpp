@@ -52,6 +52,14 @@ void add_bending(BandMatrix& m, const NodeOrder& n, double lambda) {
     }
 }
 Point residual(const Observation& o, const BSplineField& u) { return o.displacement_m - u.displacement(o.at_m); }
+void reweigh(std::span<const Observation> observations, const BSplineField& u, double robust_m, std::vector<double>& weight) {
+  const double delta = robust_m * kMm;
+  for (std::size_t o = 0; o < observations.size(); ++o) {
+    const double half_trace = observations[o].information.trace() / 2;
+    const double m2 = half_trace > 0 ? weighted_square(observations[o], u) / half_trace : 0;
+    weight[o] = 1 / (1 + m2 / (delta * delta));
+  }
+}
 }  // namespace
 
 double weighted_square(const Observation& o, const BSplineField& u) {
@@ -64,11 +72,13 @@ double residual_across_m(const Observation& o, const BSplineField& u) {
   return std::abs(eigen.eigenvectors().col(1).dot(residual(o, u)));
 }
 
-FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings) {
+FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings,
+                     const BSplineField* start) {
   VENATO_EXPECTS(reference.nx >= 4 && reference.ny >= 4 && settings.rounds >= 1);
   FitResult out;
   out.u = reference;
   out.weight.assign(observations.size(), 1.0);
+  if (start) reweigh(observations, *start, settings.robust_m, out.weight);
   const NodeOrder order(reference);
   const int nodes = reference.nx * reference.ny;
   BandMatrix bending(2 * nodes, order.half_band());
@@ -79,8 +89,11 @@ FitResult fit_spline(std::span<const Observation> observations, const BSplineFie
     footprints.push_back(footprint(reference, o.at_m));
     wanted.push_back((o.displacement_m - reference.displacement(o.at_m)) * kMm);
   }
+  BandMatrix normal(1, 0);
   for (int round = 0; round < settings.rounds; ++round) {
-    BandMatrix normal = bending;
+    const bool last = round + 1 == settings.rounds;
+    if (last) normal = std::move(bending);
+    else normal = bending;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * nodes);
     for (std::size_t o = 0; o < observations.size(); ++o) {
       const Footprint& f = footprints[o];
@@ -88,25 +101,21 @@ FitResult fit_spline(std::span<const Observation> observations, const BSplineFie
       const Point wd = w * wanted[o];
       for (std::size_t a = 0; a < 16; ++a) {
         right.segment<2>(2 * f.place[a]) += f.weight[a] * wd;
-        for (std::size_t b = 0; b < 16; ++b) add(normal, f.place[a], f.place[b], f.weight[a] * f.weight[b] * w);
+        for (std::size_t b = 0; b < 16; ++b)
+          if (f.place[b] <= f.place[a]) add(normal, f.place[a], f.place[b], f.weight[a] * f.weight[b] * w);
       }
     }
-    const bool last = round + 1 == settings.rounds;
     if (last) out.normal_matrix = normal;
-    const Eigen::VectorXd change = BandCholesky(std::move(normal)).solve(std::move(right));
+    BandCholesky factor(std::move(normal));
+    const Eigen::VectorXd change = factor.solve(std::move(right));
+    normal = std::move(factor).release();
     for (int j = 0; j < reference.ny; ++j)
       for (int i = 0; i < reference.nx; ++i) {
         const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(reference.nx) + static_cast<std::size_t>(i);
         out.u.cx[k] = reference.cx[k] + change(2 * order.at(i, j)) / kMm;
         out.u.cy[k] = reference.cy[k] + change(2 * order.at(i, j) + 1) / kMm;
       }
-    if (last) break;  // the weights returned are those the result was fitted with
-    for (std::size_t o = 0; o < observations.size(); ++o) {
-      const double half_trace = observations[o].information.trace() / 2;
-      const double m2 = half_trace > 0 ? weighted_square(observations[o], out.u) / half_trace : 0;
-      const double delta = settings.robust_m * kMm;
-      out.weight[o] = 1 / (1 + m2 / (delta * delta));
-    }
+    if (!last) reweigh(observations, out.u, settings.robust_m, out.weight);  // the weights returned are those the result was fitted with
   }
   return out;
 }

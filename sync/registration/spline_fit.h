@@ -33,8 +33,10 @@ struct NodeOrder {
 /// min sum rho((d - u)^T W (d - u)) + lambda bending(u - reference) over the coefficients of a uniform cubic B-spline. Bending = squared second
 /// differences of the coefficients in x and in y + 2 x squared mixed first differences, per component. Normal equations in a band.
 /// \param reference  field on the wanted grid; the fit is pulled towards its shape (zeros: towards an affine map)
+/// \param start  field whose residuals give the first round's robust weights; without one all weights start at 1
 /// \throws WorkError when the normal matrix cannot be factorised (cannot happen for finite input: a weak ridge keeps it definite)
-FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings);
+FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings,
+                     const BSplineField* start = nullptr);
 
 /// Squared residual (d - u)^T W (d - u) [-].
 double weighted_square(const Observation& o, const BSplineField& u);

@@ -145,6 +145,7 @@ void run(const Options& o) {
 }  // namespace venato::bench
 
 int main(int argc, char** argv) try {
+  venato::keep_freed_memory();  // as venato itself
   venato::bench::run(venato::bench::read_options(argc, argv));
   return 0;
 } catch (const venato::UsageError& e) {

@@ -201,10 +201,13 @@ TEST(CoarseGraining, bed_under_a_gate_lacks_one_coarse_diameter) {
   for (std::size_t q = 1; q < table.size(); ++q) {
     const double ratio = table[q][1].value / table[0][1].value, law = (h - kFactors[q]) / (h - 1);
     std::printf("cg %.0f: bed mass ratio %.3f, (gate - d') law %.3f\n", kFactors[q], ratio, law);
-    if (kFactors[q] <= 3)
-      EXPECT_NEAR(ratio / law, 1, 0.05) << "cg " << kFactors[q];
-    else
+    if (kFactors[q] <= 3) {
+      // The law is good to 5 %; the means of three runs are known to their standard errors.
+      const double random = 3 * std::hypot(table[q][1].error / table[q][1].value, table[0][1].error / table[0][1].value);
+      EXPECT_NEAR(ratio / law, 1, 0.05 + random) << "cg " << kFactors[q];
+    } else {
       EXPECT_LT(ratio, 0.9 * law);
+    }
   }
 }
 }  // namespace
