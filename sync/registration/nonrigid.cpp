@@ -117,7 +117,7 @@ bool fit_without_folds(std::span<const Observation> all, std::span<const Observa
     for (const std::exception_ptr& e : failed)
       if (e) std::rethrow_exception(e);
     out.map.u = std::move(whole.u);
-    out.normal_matrix = std::move(whole.normal_matrix);
+    out.weight = std::move(whole.weight);
     out.held_out_field = std::move(part.u);
     out.jacobian = jacobian_range(out.map.u, width_m, height_m, out.map.u.spacing_m / 4);
     if (out.jacobian.min > kMinJacobian && out.jacobian.max < kMaxJacobian) return true;
@@ -181,6 +181,8 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
         out.observations = std::move(observations);
         out.textured = blocks.textured;
         out.last_level = settings;
+        out.reference = reference;
+        out.lambda = fit.lambda;
         out.blur_print_m = sharpness.blur_print_m;
         out.blur_green_m = sharpness.blur_green_m;
       }

@@ -52,6 +52,16 @@ void add_bending(BandMatrix& m, const NodeOrder& n, double lambda) {
     }
 }
 Point residual(const Observation& o, const BSplineField& u) { return o.displacement_m - u.displacement(o.at_m); }
+void add_evidence(BandMatrix& normal, std::span<const Footprint> footprints, std::span<const Observation> observations,
+                  std::span<const double> weight) {
+  for (std::size_t o = 0; o < observations.size(); ++o) {
+    const Footprint& f = footprints[o];
+    const Eigen::Matrix2d w = weight[o] * observations[o].information;
+    for (std::size_t a = 0; a < 16; ++a)
+      for (std::size_t b = 0; b < 16; ++b)
+        if (f.place[b] <= f.place[a]) add(normal, f.place[a], f.place[b], f.weight[a] * f.weight[b] * w);
+  }
+}
 void reweigh(std::span<const Observation> observations, const BSplineField& u, double robust_m, std::vector<double>& weight) {
   const double delta = robust_m * kMm;
   for (std::size_t o = 0; o < observations.size(); ++o) {
@@ -61,6 +71,35 @@ void reweigh(std::span<const Observation> observations, const BSplineField& u, d
   }
 }
 }  // namespace
+
+BandMatrix normal_matrix(std::span<const Observation> observations, std::span<const double> weight, const BSplineField& u, double lambda) {
+  VENATO_EXPECTS(weight.size() == observations.size());
+  const NodeOrder order(u);
+  BandMatrix out(2 * u.nx * u.ny, order.half_band());
+  add_bending(out, order, lambda);
+  std::vector<Footprint> footprints;
+  for (const Observation& o : observations) footprints.push_back(footprint(u, o.at_m));
+  add_evidence(out, footprints, observations, weight);
+  return out;
+}
+
+double bending_variance(const BSplineField& u, const BSplineField& reference) {
+  VENATO_EXPECTS(u.nx == reference.nx && u.ny == reference.ny);
+  double energy = 0;
+  for (const auto& [of, from] : {std::pair(&u.cx, &reference.cx), std::pair(&u.cy, &reference.cy)}) {
+    const auto at = [&, c = of, z = from](int i, int j) {
+      const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(u.nx) + static_cast<std::size_t>(i);
+      return ((*c)[k] - (*z)[k]) * kMm;
+    };
+    for (int j = 0; j < u.ny; ++j)
+      for (int i = 0; i < u.nx; ++i) {
+        if (i + 2 < u.nx) energy += std::pow(at(i, j) - 2 * at(i + 1, j) + at(i + 2, j), 2);
+        if (j + 2 < u.ny) energy += std::pow(at(i, j) - 2 * at(i, j + 1) + at(i, j + 2), 2);
+        if (i + 1 < u.nx && j + 1 < u.ny) energy += 2 * std::pow(at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1), 2);
+      }
+  }
+  return energy / (2.0 * u.nx * u.ny);
+}
 
 double weighted_square(const Observation& o, const BSplineField& u) {
   const Point e = residual(o, u) * kMm;
@@ -94,18 +133,14 @@ FitResult fit_spline(std::span<const Observation> observations, const BSplineFie
     const bool last = round + 1 == settings.rounds;
     if (last) normal = std::move(bending);
     else normal = bending;
+    add_evidence(normal, footprints, observations, out.weight);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * nodes);
     for (std::size_t o = 0; o < observations.size(); ++o) {
       const Footprint& f = footprints[o];
       const Eigen::Matrix2d w = out.weight[o] * observations[o].information;
       const Point wd = w * wanted[o];
-      for (std::size_t a = 0; a < 16; ++a) {
-        right.segment<2>(2 * f.place[a]) += f.weight[a] * wd;
-        for (std::size_t b = 0; b < 16; ++b)
-          if (f.place[b] <= f.place[a]) add(normal, f.place[a], f.place[b], f.weight[a] * f.weight[b] * w);
-      }
+      for (std::size_t a = 0; a < 16; ++a) right.segment<2>(2 * f.place[a]) += f.weight[a] * wd;
     }
-    if (last) out.normal_matrix = normal;
     BandCholesky factor(std::move(normal));
     const Eigen::VectorXd change = factor.solve(std::move(right));
     normal = std::move(factor).release();
