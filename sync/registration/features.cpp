@@ -21,7 +21,8 @@ bool has_neighbours(const Feature& f, int i, int j) {
 }
 /// (d/dx, d/dy) by central differences [1/px].
 Point slope(const Feature& f, int i, int j) {
-  return Point(static_cast<double>(f.value.at(i + 1, j) - f.value.at(i - 1, j)), static_cast<double>(f.value.at(i, j + 1) - f.value.at(i, j - 1))) / 2;
+  return Point(static_cast<double>(f.value.at(i + 1, j) - f.value.at(i - 1, j)), static_cast<double>(f.value.at(i, j + 1) - f.value.at(i, j - 1))) /
+         2;
 }
 /// Edge strength; 0 and invalid where a neighbour is invalid.
 Feature edges(const Feature& f, int threads) {

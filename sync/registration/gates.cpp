@@ -90,14 +90,16 @@ void judge(const Features& green, const PoseSearch& search, const RefinedPose& p
   const Judged judged = measure(fit);
   // Neighbouring blocks share pixels: each pixel speaks in overlap_factor blocks, so the independent evidence is that much less.
   const double overlap_factor = std::pow(2 * fit.last_level.half_m / fit.last_level.step_m, 2);
-  const double unit_variance = std::max(1e-6, quantile(judged.weighted, 0.5) / kChiSquareMedian2) * overlap_factor * kSigmaCalibration * kSigmaCalibration;
+  const double unit_variance =
+      std::max(1e-6, quantile(judged.weighted, 0.5) / kChiSquareMedian2) * overlap_factor * kSigmaCalibration * kSigmaCalibration;
   if (!fit.blocks.empty()) {
     // Where no block speaks the error is what the displacement may do there, and how much it bends is measured: the field found so far. The fit's
     // own stiffness alone, scaled with the residuals, promised least error in the gaps of the sharpest pictures. It stays the upper limit, because
     // a field found from few blocks is smoother than the truth.
-    const double bending = std::max(kMinBending_mm2, bending_variance(fit.map.u, fit.reference)), stiffness = std::min(fit.lambda, unit_variance / bending);
-    out.sigma_m = sigma_map(fit.map.u, normal_matrix(fit.observations, fit.weight, fit.map.u, stiffness), unit_variance, width, height,
-                            kSigmaPitch_m, threads);
+    const double bending = std::max(kMinBending_mm2, bending_variance(fit.map.u, fit.reference)),
+                 stiffness = std::min(fit.lambda, unit_variance / bending);
+    out.sigma_m =
+        sigma_map(fit.map.u, normal_matrix(fit.observations, fit.weight, fit.map.u, stiffness), unit_variance, width, height, kSigmaPitch_m, threads);
   }
   fill_zones(fit, judged, width, height, out);
   out.internal_residual_m = quantile(judged.held_out_m, 0.5);

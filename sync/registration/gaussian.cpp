@@ -40,7 +40,8 @@ std::vector<float> gaussian_inside(int n, double sigma_px) {
 }
 
 void gaussian(std::span<const float> data, int width, int height, double sigma_px, int threads, std::span<float> out) {
-  VENATO_EXPECTS(sigma_px > 0 && out.size() == data.size() && out.data() != data.data() && data.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  VENATO_EXPECTS(sigma_px > 0 && out.size() == data.size() && out.data() != data.data() &&
+                 data.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const std::vector<float> w = kernel(sigma_px);
   const int taps = static_cast<int>(w.size()), r = taps / 2;
   const int room = (width + kLanes - 1) / kLanes * kLanes;  // row length with whole lanes

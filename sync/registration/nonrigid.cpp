@@ -13,8 +13,10 @@ struct Level {
 // registration_print.md 1.3 with the first search of levels 2 to 4 narrowed from 20, 12 and 6 mm to what the level before leaves over, and without
 // second passes of levels 2 and 3: the next level corrects the same. Lambda of the last level is 0.04 instead of 0.03 because it acts on a fifth of
 // the bending only.
-constexpr Level kLevels[] = {
-    {4, 0.096, {0.040, 0.020}, 0.160, 0.005, 2}, {2, 0.064, {0.014, 0.010}, 0.100, 0.01, 1}, {2, 0.048, {0.010, 0.006}, 0.064, 0.02, 1}, {1, 0.028, {0.005, 0.003}, 0.048, 0.04, 2}};
+constexpr Level kLevels[] = {{4, 0.096, {0.040, 0.020}, 0.160, 0.005, 2},
+                             {2, 0.064, {0.014, 0.010}, 0.100, 0.01, 1},
+                             {2, 0.048, {0.010, 0.006}, 0.064, 0.02, 1},
+                             {1, 0.028, {0.005, 0.003}, 0.048, 0.04, 2}};
 constexpr int kSharpnessFactor = 3;     // sharpness is compared at 3 mm/px
 constexpr double kFullSize_m = 0.6;     // the table of the source was found on slabs of 0.7 m and more
 constexpr double kSmallestScale = 0.4;  // blocks of 11 mm half width: below, one vein no longer fits
@@ -94,8 +96,8 @@ BSplineField between(BSplineField from, const BSplineField& to, double share) {
 }
 /// Fits out.map.u, doubling lambda while it folds; false if it still does. With `some` observations also out.held_out_field, at the final lambda.
 bool fit_without_folds(std::span<const Observation> all, std::span<const Observation> some, const BSplineField& reference,
-                       const BSplineField& held_out_reference, bool cold,
-                       double width_m, double height_m, FitSettings& settings, int threads, NonrigidResult& out) {
+                       const BSplineField& held_out_reference, bool cold, double width_m, double height_m, FitSettings& settings, int threads,
+                       NonrigidResult& out) {
   const BSplineField before = out.map.u;
   for (int doubling = 0;; ++doubling) {
     FitResult whole, part;
@@ -135,7 +137,8 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
   out.map = start;
   const double width = green.value.width_m(), height = green.value.height_m();
   const double scale = std::clamp(std::min(width, height) / kFullSize_m, kSmallestScale, 1.0);
-  const Feature small_green = downsample(green, kSharpnessFactor, context.threads), small_print = downsample(print, kSharpnessFactor, context.threads);
+  const Feature small_green = downsample(green, kSharpnessFactor, context.threads),
+                small_print = downsample(print, kSharpnessFactor, context.threads);
   const Feature half_green = downsample(green, 2, context.threads), half_print = downsample(print, 2, context.threads);
   const Feature texture = smooth(half_green, kTextureSmoothing_m / half_green.value.pitch_m, context.threads);
   clock.lap("level pictures");
@@ -143,8 +146,8 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
   for (const Level& level : kLevels) {
     Sharpness sharpness;
     if (level.factor <= 2)  // the first level is coarser than any blur worth matching
-      sharpness = equal_sharpness(small_green, warp_to_green(small_print, out.map, small_green.value.width, small_green.value.height, context.threads),
-                                  context.threads);
+      sharpness = equal_sharpness(
+          small_green, warp_to_green(small_print, out.map, small_green.value.width, small_green.value.height, context.threads), context.threads);
     clock.lap("equal sharpness");
     const double pixel = green.value.pitch_m * level.factor;
     Feature reduced_green, reduced_print;
@@ -174,7 +177,8 @@ NonrigidResult fit_nonrigid(const Feature& green, const Feature& print, const Tr
       // The last level bends towards most of the field so far, not towards the prior: penalised in full, short waves would be flattened (iterated
       // Tikhonov regularisation). The held-out fit must not see a field that its blocks have shaped.
       if (last && pass == 0) so_far = between(reference, project_field(out.map.u, reference), kShareOfFieldSoFar);
-      if (!fit_without_folds(observations, fitted, last ? so_far : reference, reference, cold && pass == 0, width, height, fit, context.threads, out)) return out;
+      if (!fit_without_folds(observations, fitted, last ? so_far : reference, reference, cold && pass == 0, width, height, fit, context.threads, out))
+        return out;
       clock.lap("spline fits");
       if (final_pass) {
         out.blocks = std::move(blocks.matches);

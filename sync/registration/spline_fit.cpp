@@ -131,8 +131,10 @@ FitResult fit_spline(std::span<const Observation> observations, const BSplineFie
   BandMatrix normal(1, 0);
   for (int round = 0; round < settings.rounds; ++round) {
     const bool last = round + 1 == settings.rounds;
-    if (last) normal = std::move(bending);
-    else normal = bending;
+    if (last)
+      normal = std::move(bending);
+    else
+      normal = bending;
     add_evidence(normal, footprints, observations, out.weight);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * nodes);
     for (std::size_t o = 0; o < observations.size(); ++o) {

@@ -20,7 +20,7 @@ struct FitSettings {
 };
 struct FitResult {
   BSplineField u;
-  std::vector<double> weight;                 ///< robust weight per observation, 0..1
+  std::vector<double> weight;  ///< robust weight per observation, 0..1
 };
 /// Numbering of the control points along the shorter side first, which makes the band of the normal matrix narrow.
 struct NodeOrder {

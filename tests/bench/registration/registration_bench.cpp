@@ -77,8 +77,8 @@ struct Runner {
   Store store{"out/registration_store"};
   std::vector<Scene> scenes;
   std::map<std::string, std::map<std::string, Row>> rows;  ///< kind, code
-  int covered = 0, zones = 0;            ///< on veins that the slab still has
-  int covered_lost = 0, zones_lost = 0;  ///< on all veins of the graphic
+  int covered = 0, zones = 0;                              ///< on veins that the slab still has
+  int covered_lost = 0, zones_lost = 0;                    ///< on all veins of the graphic
   double smallest_jacobian = 1;
   std::vector<sync::Phase> phases;  ///< summed over the whole faces
   int whole_faces = 0;
@@ -120,8 +120,10 @@ struct Runner {
         ++whole_faces;
         for (const sync::Phase& p : r.phases) {
           const auto at = std::find_if(phases.begin(), phases.end(), [&](const sync::Phase& q) { return q.name == p.name; });
-          if (at == phases.end()) phases.push_back(p);
-          else at->seconds += p.seconds;
+          if (at == phases.end())
+            phases.push_back(p);
+          else
+            at->seconds += p.seconds;
         }
       }
       if (r.success) {
@@ -195,8 +197,8 @@ struct Runner {
     for (auto& [code, t] : total)
       std::printf("| all | %s | %d/%d | %d | %.3f | %.3f | %.2f |\n", code.c_str(), t.found, t.pairs, t.wrong, t.mean_of(t.median), t.mean_of(t.p95),
                   t.mean_of(t.seconds));
-    std::printf("\nzones whose predicted error covers the true one: %d of %d (%.1f %%), with lost veins %d of %d\nleast Jacobian: %.3f\n", covered, zones,
-                zones > 0 ? 100.0 * covered / zones : NAN, covered_lost, zones_lost, smallest_jacobian);
+    std::printf("\nzones whose predicted error covers the true one: %d of %d (%.1f %%), with lost veins %d of %d\nleast Jacobian: %.3f\n", covered,
+                zones, zones > 0 ? 100.0 * covered / zones : NAN, covered_lost, zones_lost, smallest_jacobian);
     if (whole_faces > 0) std::printf("\n| phase (mean of %d whole faces) | s |\n|---|---|\n", whole_faces);
     for (const sync::Phase& p : phases) std::printf("| %s | %.3f |\n", p.name.c_str(), p.seconds / whole_faces);
     if (total.count("elastix"))
@@ -212,16 +214,26 @@ int run(int argc, char** argv) {
       if (k + 1 >= argc) throw std::invalid_argument(a + " needs a value");
       return argv[++k];
     };
-    if (a == "--pairs") o.pairs = std::stoi(value());
-    else if (a == "--first") o.first = std::stoi(value());
-    else if (a == "--unrelated") o.unrelated = std::stoi(value());
-    else if (a == "--threads") o.threads = std::stoi(value());
-    else if (a == "--out") o.out = value();
-    else if (a == "--no-peers") o.peers = false;
-    else if (a.rfind("--", 0) == 0) throw std::invalid_argument("unknown option " + a);
-    else o.scenes.push_back(a);
+    if (a == "--pairs")
+      o.pairs = std::stoi(value());
+    else if (a == "--first")
+      o.first = std::stoi(value());
+    else if (a == "--unrelated")
+      o.unrelated = std::stoi(value());
+    else if (a == "--threads")
+      o.threads = std::stoi(value());
+    else if (a == "--out")
+      o.out = value();
+    else if (a == "--no-peers")
+      o.peers = false;
+    else if (a.rfind("--", 0) == 0)
+      throw std::invalid_argument("unknown option " + a);
+    else
+      o.scenes.push_back(a);
   }
-  if (o.scenes.size() < 2) throw std::invalid_argument("usage: registration_bench [--pairs N] [--first N] [--unrelated N] [--threads N] [--out DIR] [--no-peers] SCENE.png SCENE.png...");
+  if (o.scenes.size() < 2)
+    throw std::invalid_argument(
+        "usage: registration_bench [--pairs N] [--first N] [--unrelated N] [--threads N] [--out DIR] [--no-peers] SCENE.png SCENE.png...");
   Runner runner;
   runner.options = o;
   for (const std::string& f : o.scenes) runner.scenes.push_back(load_scene(f));

@@ -22,7 +22,8 @@ Eigen::MatrixXd dense(const BandMatrix& a) {
 
 TEST(BandMatrix, SolvesAndInvertsLikeTheDenseMatrix) {
   // Orders that leave 0 to 3 rows over, bands shorter and longer than the groups of four rows, and a band as wide as the matrix.
-  for (const auto& [order, half_band] : {std::pair(40, 9), std::pair(41, 2), std::pair(42, 23), std::pair(43, 0), std::pair(7, 20), std::pair(1, 0)}) {
+  for (const auto& [order, half_band] :
+       {std::pair(40, 9), std::pair(41, 2), std::pair(42, 23), std::pair(43, 0), std::pair(7, 20), std::pair(1, 0)}) {
     SCOPED_TRACE(std::to_string(order) + ", " + std::to_string(half_band));
     const BandMatrix a = matrix(order, half_band);
     const Eigen::MatrixXd d = dense(a), inverse = d.inverse();

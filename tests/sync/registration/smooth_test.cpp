@@ -40,8 +40,7 @@ TEST(Smooth, LeavesAConstantAndGivesTheSameBytesForAnyThreadCount) {
     Feature flat = f;
     for (std::size_t k = 0; k < flat.value.data.size(); ++k) flat.value.data[k] = flat.valid.data[k] ? 0.75f : 0.0f;
     const Feature s = smooth_and_extend(flat, sigma, 2);
-    for (std::size_t k = 0; k < s.value.data.size(); ++k)
-      EXPECT_NEAR(s.value.data[k], s.valid.data[k] ? 0.75f : 0.0f, 1e-5f);
+    for (std::size_t k = 0; k < s.value.data.size(); ++k) EXPECT_NEAR(s.value.data[k], s.valid.data[k] ? 0.75f : 0.0f, 1e-5f);
   }
 }
 }  // namespace
