@@ -38,6 +38,9 @@ check_packages='
 libgtest-dev             the tests
 libtiff-tools            tests read our TIFF files with a second program (tiffinfo)
 imagemagick              tests read our pictures with a second program
+libvips-tools            tests read our printer files with a second program (vips)
+gdal-bin                 tests read our printer files with a second program (gdal_translate)
+ghostscript              tests print the preview with a second program (gs)
 hdf5-tools               tests read our HDF5 files with a second program (h5dump)
 chromium                 tests open the HTML report in a browser
 '

@@ -35,6 +35,8 @@ Graphic separate(const Raster8& srgb, const std::vector<Ink>& inks, std::array<s
                  int max_inks_per_pixel = 3);
 /// The same model forward: inks -> sRGB preview.
 std::array<std::uint8_t, 3> predict_srgb(const std::vector<Ink>& inks, std::array<std::uint8_t, 3> body_srgb, const std::uint8_t* amounts);
+/// A whole picture of ink amounts (one channel per ink, 255 = full ink).
+Raster8 predict_srgb(const std::vector<Ink>& inks, std::array<std::uint8_t, 3> body_srgb, const Raster8& amounts);
 
 /// Atomic writers (PNG, JPEG) for figures; `dpi` 0 = from pitch.
 void write_png(const std::filesystem::path& file, const Raster8& image);

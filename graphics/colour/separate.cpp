@@ -188,11 +188,28 @@ Graphic separate(const Raster8& srgb, const std::vector<Ink>& inks, std::array<s
   return g;
 }
 
-std::array<std::uint8_t, 3> predict_srgb(const std::vector<Ink>& inks, std::array<std::uint8_t, 3> body_srgb, const std::uint8_t* amounts) {
-  const InkModel model = make_ink_model(inks, body_srgb);
-  std::vector<double> a(inks.size());
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] = amounts[k] / 255.0;
-  const Log3 r = mix_log_reflectance(model, a.data());
+namespace {
+Srgb8 srgb_of_mixture(const InkModel& model, const std::uint8_t* amounts, double* work) {
+  for (std::size_t k = 0; k < model.absorb.size(); ++k) work[k] = amounts[k] / 255.0;
+  const Log3 r = mix_log_reflectance(model, work);
   return {linear_to_srgb(std::exp(r[0])), linear_to_srgb(std::exp(r[1])), linear_to_srgb(std::exp(r[2]))};
+}
+}  // namespace
+
+std::array<std::uint8_t, 3> predict_srgb(const std::vector<Ink>& inks, std::array<std::uint8_t, 3> body_srgb, const std::uint8_t* amounts) {
+  std::vector<double> work(inks.size());
+  return srgb_of_mixture(make_ink_model(inks, body_srgb), amounts, work.data());
+}
+
+Raster8 predict_srgb(const std::vector<Ink>& inks, std::array<std::uint8_t, 3> body_srgb, const Raster8& amounts) {
+  VENATO_EXPECTS(amounts.channels == static_cast<int>(inks.size()));
+  const InkModel model = make_ink_model(inks, body_srgb);
+  std::vector<double> work(inks.size());
+  Raster8 out(amounts.width, amounts.height, 3, amounts.pitch_m);
+  for (std::size_t in = 0, to = 0; in < amounts.data.size(); in += inks.size(), to += 3) {
+    const Srgb8 rgb = srgb_of_mixture(model, amounts.data.data() + in, work.data());
+    std::copy(rgb.begin(), rgb.end(), out.data.begin() + static_cast<std::ptrdiff_t>(to));
+  }
+  return out;
 }
 }  // namespace venato::graphics

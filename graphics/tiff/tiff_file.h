@@ -36,7 +36,22 @@ class TiffStripWriter {
   TiffStripWriter(std::filesystem::path final_path, const TiffInfo& info, int threads);
   ~TiffStripWriter();
   void write_rows(std::span<const std::uint8_t> rows);  ///< whole rows, width*channels*bytes each
+  /// The next strip as StripCoder made it from `rows` rows (rows_per_strip, or what the last strip has). Not together with write_rows.
+  void write_coded(std::span<const std::uint8_t> strip, int rows);
   void close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+/// Compresses strips outside the writer, for callers that make many files of one pass: one object per thread, it keeps its buffers.
+class StripCoder {
+ public:
+  StripCoder();
+  ~StripCoder();
+  StripCoder(StripCoder&&) noexcept;
+  /// \param info of the file \param rows whole rows of one strip \return bytes for write_coded, valid until the next call. \throws WorkError
+  std::span<const std::uint8_t> encode(const TiffInfo& info, std::span<const std::uint8_t> rows);
 
  private:
   struct Impl;

@@ -69,14 +69,15 @@ struct TiffStripWriter::Impl {
         }
       }
       if (error) std::rethrow_exception(error);
-      for (const auto& c : coded) {
-        errno = 0;
-        const auto size = static_cast<tmsize_t>(c.size());
-        if (TIFFWriteRawStrip(tif.get(), static_cast<std::uint32_t>(strips_written), const_cast<std::uint8_t*>(c.data()), size) != size)
-          fail(errno ? std::strerror(errno) : log.reason("write failed"));
-        ++strips_written;
-      }
+      for (const auto& c : coded) append(c);
     }
+  }
+  void append(std::span<const std::uint8_t> strip) {
+    errno = 0;
+    const auto size = static_cast<tmsize_t>(strip.size());
+    if (TIFFWriteRawStrip(tif.get(), static_cast<std::uint32_t>(strips_written), const_cast<std::uint8_t*>(strip.data()), size) != size)
+      fail(errno ? std::strerror(errno) : log.reason("write failed"));
+    ++strips_written;
   }
 };
 
@@ -135,6 +136,19 @@ void TiffStripWriter::write_rows(std::span<const std::uint8_t> rows) {
     const std::size_t direct = rows.size() / m.strip_bytes * m.strip_bytes;
     m.write_strips(rows.first(direct));
     m.pending.assign(rows.begin() + static_cast<std::ptrdiff_t>(direct), rows.end());
+  } catch (...) {
+    m.discard();
+    throw;
+  }
+}
+
+void TiffStripWriter::write_coded(std::span<const std::uint8_t> strip, int rows) {
+  Impl& m = *impl_;
+  const std::int64_t left = m.info.height - m.rows_taken;
+  VENATO_EXPECTS(!m.done && m.pending.empty() && rows > 0 && rows == std::min<std::int64_t>(m.info.rows_per_strip, left));
+  m.rows_taken += rows;
+  try {
+    m.append(strip);
   } catch (...) {
     m.discard();
     throw;

@@ -58,12 +58,18 @@ struct MaskFile {
   std::uintmax_t bytes = 0;
   std::string sha256;
 };
+/// Where the time of the print files went [s]; for benches, no part of any file.
+struct MaskTimes {
+  double warp_s = 0, compress_s = 0, write_s = 0;  ///< summed over the threads: warp and preview sums; every file's compression; write calls
+  double finish_s = 0;                             ///< wall: preview.png, fsync, SHA-256
+};
 struct MaskSet {
   std::int64_t width_px = 0, height_px = 0;
   double pitch_m = 0;
   bool big_tiff = false;
   double predicted_print_bytes = 0;  ///< from 2 % of the strips
   std::vector<MaskFile> files;       ///< without masks.json itself
+  MaskTimes times;
 };
 
 /// Writes a job's printer files into `folder`:

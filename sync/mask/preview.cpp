@@ -8,48 +8,50 @@ PreviewBuilder::PreviewBuilder(std::int64_t width, std::int64_t height, double p
     : width_(width), height_(height), channels_(channels) {
   box_ = static_cast<int>(std::max((height + kMaxHeight - 1) / kMaxHeight, (width + kMaxWidth - 1) / kMaxWidth));
   step_ = (box_ + 3) / 4;
-  amounts_ = graphics::Raster8(static_cast<int>((width + box_ - 1) / box_), static_cast<int>((height + box_ - 1) / box_), channels, pitch_m * box_);
-  sum_.assign(static_cast<std::size_t>(amounts_.width) * static_cast<std::size_t>(channels), 0);
-  count_.assign(static_cast<std::size_t>(amounts_.width), 0);
+  pitch_m_ = pitch_m * box_;
+  out_width_ = static_cast<int>((width + box_ - 1) / box_);
+  out_height_ = static_cast<int>((height + box_ - 1) / box_);
+  sum_.assign(static_cast<std::size_t>(out_width_) * static_cast<std::size_t>(out_height_) * static_cast<std::size_t>(channels), 0);
 }
 
-void PreviewBuilder::add_rows(std::span<const std::uint8_t> rows) {
-  const auto row_bytes = static_cast<std::size_t>(width_ * channels_);
-  for (std::size_t start = 0; start < rows.size(); start += row_bytes, ++row_) {
-    if ((row_ % box_) % step_ == 0) {
-      for (int i = 0; i < amounts_.width; ++i) {
-        const std::int64_t end = std::min(width_, static_cast<std::int64_t>(i + 1) * box_);
-        for (std::int64_t x = static_cast<std::int64_t>(i) * box_; x < end; x += step_) {
-          const std::uint8_t* pixel = rows.data() + start + static_cast<std::size_t>(x * channels_);
-          for (int c = 0; c < channels_; ++c) sum_[static_cast<std::size_t>(i * channels_ + c)] += pixel[c];
-          ++count_[static_cast<std::size_t>(i)];
-        }
+int PreviewBuilder::samples(int box, std::int64_t side) const {
+  const auto covered = static_cast<int>(std::min<std::int64_t>(box_, side - static_cast<std::int64_t>(box) * box_));
+  return (covered + step_ - 1) / step_;
+}
+
+void PreviewBuilder::add_rows(std::int64_t first_row, std::span<const std::uint8_t> rows) {
+  const auto row_bytes = static_cast<std::size_t>(width_ * channels_), line_size = static_cast<std::size_t>(out_width_ * channels_);
+  std::vector<std::uint16_t> line(line_size);
+  std::int64_t row = first_row;
+  for (std::size_t start = 0; start < rows.size(); start += row_bytes, ++row) {
+    if ((row % box_) % step_ != 0) continue;
+    std::fill(line.begin(), line.end(), std::uint16_t{0});
+    for (int i = 0; i < out_width_; ++i) {
+      const std::int64_t begin = static_cast<std::int64_t>(i) * box_, end = std::min(width_, begin + box_);
+      std::uint16_t* to = line.data() + static_cast<std::size_t>(i * channels_);
+      for (std::int64_t x = begin; x < end; x += step_) {
+        const std::uint8_t* pixel = rows.data() + start + static_cast<std::size_t>(x * channels_);
+        for (int c = 0; c < channels_; ++c) to[c] = static_cast<std::uint16_t>(to[c] + pixel[c]);
       }
     }
-    if (row_ % box_ == box_ - 1 || row_ == height_ - 1) finish_row();
+    std::uint16_t* to = sum_.data() + static_cast<std::size_t>(row / box_) * line_size;
+    const std::lock_guard lock(guard_);  // a box may reach into the next strip, which another thread has
+    for (std::size_t k = 0; k < line_size; ++k) to[k] = static_cast<std::uint16_t>(to[k] + line[k]);
   }
-}
-
-void PreviewBuilder::finish_row() {
-  const int j = static_cast<int>(row_ / box_);
-  for (int i = 0; i < amounts_.width; ++i) {
-    const std::uint32_t n = count_[static_cast<std::size_t>(i)];
-    for (int c = 0; c < channels_; ++c)
-      amounts_.at(i, j, c) = static_cast<std::uint8_t>((sum_[static_cast<std::size_t>(i * channels_ + c)] + n / 2) / n);
-  }
-  std::fill(sum_.begin(), sum_.end(), 0);
-  std::fill(count_.begin(), count_.end(), 0);
+  const std::lock_guard lock(guard_);
+  rows_added_ += row - first_row;
 }
 
 graphics::Raster8 PreviewBuilder::picture(const std::vector<graphics::Ink>& inks, std::array<std::uint8_t, 3> body_srgb) const {
-  VENATO_EXPECTS(row_ == height_);
-  graphics::Raster8 out(amounts_.width, amounts_.height, 3, amounts_.pitch_m);
-  for (int j = 0; j < out.height; ++j)
-    for (int i = 0; i < out.width; ++i) {
-      const auto rgb = graphics::predict_srgb(inks, body_srgb, amounts_.data.data() + amounts_.index(i, j));
-      std::copy(rgb.begin(), rgb.end(), out.data.begin() + static_cast<std::ptrdiff_t>(out.index(i, j)));
+  VENATO_EXPECTS(rows_added_ == height_);
+  graphics::Raster8 amounts(out_width_, out_height_, channels_, pitch_m_);
+  std::size_t k = 0;
+  for (int j = 0; j < out_height_; ++j)
+    for (int i = 0; i < out_width_; ++i) {
+      const unsigned n = static_cast<unsigned>(samples(i, width_) * samples(j, height_));
+      for (int c = 0; c < channels_; ++c, ++k) amounts.data[k] = static_cast<std::uint8_t>((sum_[k] + n / 2) / n);
     }
-  return out;
+  return graphics::predict_srgb(inks, body_srgb, amounts);
 }
 
 }  // namespace venato::sync

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 #include "graphics/graphic.h"
@@ -12,17 +13,19 @@ class PreviewBuilder {
  public:
   static constexpr int kMaxHeight = 1600, kMaxWidth = 4000;
   PreviewBuilder(std::int64_t width, std::int64_t height, double pitch_m, int channels);
-  /// Rows in order, interleaved, 0 = no ink.
-  void add_rows(std::span<const std::uint8_t> rows);
+  /// Rows from `first_row` on, interleaved, 0 = no ink. Any order, any thread: sums of whole numbers do not depend on it. Each row once.
+  void add_rows(std::int64_t first_row, std::span<const std::uint8_t> rows);
   /// \pre all rows were added
   graphics::Raster8 picture(const std::vector<graphics::Ink>& inks, std::array<std::uint8_t, 3> body_srgb) const;
 
  private:
-  std::int64_t width_, height_, row_ = 0;
+  std::int64_t width_, height_, rows_added_ = 0;
+  double pitch_m_;
   int channels_, box_, step_;  ///< step_: every how many pixels of a box one is taken, both ways; 4 x 4 samples of contone data are its mean
-  graphics::Raster8 amounts_;
-  std::vector<std::uint32_t> sum_;
-  std::vector<std::uint32_t> count_;
-  void finish_row();
+  int out_width_, out_height_;
+  std::vector<std::uint16_t> sum_;  ///< [box row][box][channel]; at most 4 x 4 x 255
+  std::mutex guard_;
+  /// How many samples a box has along one axis.
+  int samples(int box, std::int64_t side) const;
 };
 }  // namespace venato::sync

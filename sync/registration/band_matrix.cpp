@@ -9,7 +9,8 @@ constexpr int kLanes = 8;  // partial sums; fixed, so that SIMD width does not c
 
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 const Four& load(const double* p) {  // a reference: vectors by value would depend on the instruction set
-  return *reinterpret_cast<const Four*>(p); }
+  return *reinterpret_cast<const Four*>(p);
+}
 
 __attribute__((target_clones("avx2", "default"))) double dot(const double* a, const double* b, int n) {
   double lane[kLanes] = {};
@@ -43,7 +44,10 @@ __attribute__((target_clones("avx2", "default"))) void four_dots(const double* a
 }  // namespace
 
 BandMatrix::BandMatrix(int order, int half_band)
-    : order_(order), half_band_(half_band), stride_(kPad + half_band + 1), data_(static_cast<std::size_t>(order) * static_cast<std::size_t>(stride_), 0.0) {
+    : order_(order),
+      half_band_(half_band),
+      stride_(kPad + half_band + 1),
+      data_(static_cast<std::size_t>(order) * static_cast<std::size_t>(stride_), 0.0) {
   VENATO_EXPECTS(order > 0 && half_band >= 0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 namespace venato::sync {
 
@@ -27,6 +28,8 @@ class BandCholesky {
  public:
   /// \throws WorkError if a is not positive definite
   explicit BandCholesky(BandMatrix a);
+  /// The storage, to be filled again: a new one of 10 MB costs as much as a tenth of the factorisation.
+  BandMatrix release() && { return std::move(l_); }
   Eigen::VectorXd solve(Eigen::VectorXd right) const;
   const BandMatrix& lower() const { return l_; }
 

@@ -118,7 +118,9 @@ BlockResult match_blocks(const Feature& green, const Feature& texture, const Fea
     Patch block = cut(green, x0, y0, x1 - x0, y1 - y0, stride);
     if (!(block.mask_sum >= kMinValid * block.width * block.height)) continue;
     const RectSums sums = rect_sums(green, x0, y0, x1, y1);
-    const auto on_texture = [&](int at, int limit) { return std::clamp(static_cast<int>(std::lround(at * pixel / texture.value.pitch_m)), 0, limit); };
+    const auto on_texture = [&](int at, int limit) {
+      return std::clamp(static_cast<int>(std::lround(at * pixel / texture.value.pitch_m)), 0, limit);
+    };
     const int tx0 = on_texture(x0, texture.value.width), tx1 = on_texture(x1, texture.value.width), ty0 = on_texture(y0, texture.value.height),
               ty1 = on_texture(y1, texture.value.height);
     const RectSums texture_sums = rect_sums(texture, tx0, ty0, tx1, ty1);

@@ -65,20 +65,24 @@ __attribute__((target_clones("avx2", "default"))) void two_sums(const float* v, 
 }
 }  // namespace
 
+RectSums row_sums(const float* row, int n) {
+  double sums[2];
+  const int whole = n / 8 * 8;
+  two_sums(row, row, whole, sums);
+  for (int i = whole; i < n; ++i) {
+    sums[0] += static_cast<double>(row[i]);
+    sums[1] += static_cast<double>(row[i] * row[i]);
+  }
+  return {sums[0], sums[1]};
+}
+
 RectSums rect_sums(const Feature& f, int x0, int y0, int x1, int y1) {
   VENATO_EXPECTS(x0 >= 0 && y0 >= 0 && x1 <= f.value.width && y1 <= f.value.height);
   RectSums out;
-  const int whole = (x1 - x0) / 8 * 8;
   for (int y = y0; y < y1; ++y) {
-    const float* row = f.value.data.data() + f.value.index(x0, y);
-    double sums[2];
-    two_sums(row, row, whole, sums);
-    for (int i = whole; i < x1 - x0; ++i) {
-      sums[0] += static_cast<double>(row[i]);
-      sums[1] += static_cast<double>(row[i] * row[i]);
-    }
-    out.sum += sums[0];
-    out.squares += sums[1];
+    const RectSums row = row_sums(f.value.data.data() + f.value.index(x0, y), x1 - x0);
+    out.sum += row.sum;
+    out.squares += row.squares;
   }
   return out;
 }

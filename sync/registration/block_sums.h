@@ -7,6 +7,8 @@ namespace venato::sync {
 struct RectSums {
   double sum = 0, squares = 0;
 };
+/// Of n pixels in a row.
+RectSums row_sums(const float* row, int n);
 /// \pre the rectangle lies inside f
 RectSums rect_sums(const Feature& f, int x0, int y0, int x1, int y1);
 /// Gradient energy decides which part of the block a shift speaks for: a vein that crosses a corner measures the corner. [px]

@@ -13,7 +13,7 @@ constexpr double kEpsilon = 1e-6;
 constexpr std::size_t kFineCandidates = 2;
 constexpr double kSamePlace_m = 0.030;  // half of what the pose search tells apart; ECC reaches farther on its smoothed pictures
 constexpr double kSameShape = 0.01;
-constexpr double kRivalScore = 0.5;     // the best wrong place had at most 1.48 times the next (registration_print.md 1.5 T2)
+constexpr double kRivalScore = 0.5;  // the best wrong place had at most 1.48 times the next (registration_print.md 1.5 T2)
 
 cv::Mat as_mat(const Feature& f, float sign) {
   cv::Mat m(f.value.height, f.value.width, CV_32F);

@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 namespace venato::sync {
@@ -20,7 +21,8 @@ bool has_neighbours(const Feature& f, int i, int j) {
 }
 /// (d/dx, d/dy) by central differences [1/px].
 Point slope(const Feature& f, int i, int j) {
-  return Point(static_cast<double>(f.value.at(i + 1, j) - f.value.at(i - 1, j)), static_cast<double>(f.value.at(i, j + 1) - f.value.at(i, j - 1))) / 2;
+  return Point(static_cast<double>(f.value.at(i + 1, j) - f.value.at(i - 1, j)), static_cast<double>(f.value.at(i, j + 1) - f.value.at(i, j - 1))) /
+         2;
 }
 /// Edge strength; 0 and invalid where a neighbour is invalid.
 Feature edges(const Feature& f, int threads) {
@@ -54,16 +56,23 @@ int edge_factor(double pitch_m) { return std::max(1, static_cast<int>(std::lroun
 
 double wanted_smoothing_m(const Feature& base, int threads) {
   const graphics::RasterF& v = base.value;
-  std::vector<float> response;
-  for (int j = 1; j + 1 < v.height; j += 4)
-    for (int i = 1; i + 1 < v.width; i += 3) {
+  // Every fourth row is enough for a median; rows fill their own part, so threads do not change the order.
+  const int rows = std::max(0, (v.height - 2 + 3) / 4), columns = std::max(0, (v.width - 2 + 2) / 3);
+  std::vector<float> all(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), -1.0f);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) {
+      const int i = 1 + 3 * c, j = 1 + 4 * r;
       bool ok = true;
       for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) ok = ok && base.valid.at(i + x, j + y);
       if (!ok) continue;
-      response.push_back(std::abs(v.at(i - 1, j - 1) - 2 * v.at(i, j - 1) + v.at(i + 1, j - 1) - 2 * v.at(i - 1, j) + 4 * v.at(i, j) -
-                                  2 * v.at(i + 1, j) + v.at(i - 1, j + 1) - 2 * v.at(i, j + 1) + v.at(i + 1, j + 1)));
+      all[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)] =
+          std::abs(v.at(i - 1, j - 1) - 2 * v.at(i, j - 1) + v.at(i + 1, j - 1) - 2 * v.at(i - 1, j) + 4 * v.at(i, j) - 2 * v.at(i + 1, j) +
+                   v.at(i - 1, j + 1) - 2 * v.at(i, j + 1) + v.at(i + 1, j + 1));
     }
+  std::vector<float> response;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(response), [](float x) { return x >= 0; });
   if (response.empty()) return kMinGrain_m;
   std::nth_element(response.begin(), response.begin() + static_cast<std::ptrdiff_t>(response.size() / 2), response.end());
   const double noise = static_cast<double>(response[response.size() / 2]) / (0.6745 * 6);  // 6 = norm of the mask

@@ -16,6 +16,7 @@ constexpr double kMatchedShare = 0.4, kPeakRatioFloor = 1.05, kGlobalNcc = 0.4;
 constexpr double kHeldOutSpread_m = 0.0008, kGlobalNccSure = 0.6;
 // Brings |error| / sigma on the veins of 48 true pairs to median 0.87, P95 2.3 (a 2-D Gaussian has 0.83 and 1.73).
 constexpr double kSigmaCalibration = 1.4;
+constexpr double kMinBending_mm2 = 1e-4;  // a pure affine map bends nothing: keeps the division finite
 constexpr double kZone_m = 0.200, kSigmaPitch_m = 0.010;
 constexpr double kUsableSigma_m = 0.002;  // domain.md 2.1: P95 of a good slab
 constexpr double kGoodBlockNcc = 0.6;
@@ -87,12 +88,19 @@ void judge(const Features& green, const PoseSearch& search, const RefinedPose& p
   const double width = green.signed_evidence.value.width_m(), height = green.signed_evidence.value.height_m();
   out.gates.push_back({"T1", pose.ecc, 0, true, "correlation after the affine refinement"});
   const Judged judged = measure(fit);
-  const double overlap_factor = std::pow(2 * fit.last_level.half_m / fit.last_level.step_m, 2);
-  const double unit_variance = std::max(1e-6, quantile(judged.weighted, 0.5) / kChiSquareMedian2);
   // Neighbouring blocks share pixels: each pixel speaks in overlap_factor blocks, so the independent evidence is that much less.
-  if (!fit.blocks.empty())
-    out.sigma_m = sigma_map(fit.map.u, fit.normal_matrix, unit_variance * overlap_factor * kSigmaCalibration * kSigmaCalibration, width, height,
-                            kSigmaPitch_m, threads);
+  const double overlap_factor = std::pow(2 * fit.last_level.half_m / fit.last_level.step_m, 2);
+  const double unit_variance =
+      std::max(1e-6, quantile(judged.weighted, 0.5) / kChiSquareMedian2) * overlap_factor * kSigmaCalibration * kSigmaCalibration;
+  if (!fit.blocks.empty()) {
+    // Where no block speaks the error is what the displacement may do there, and how much it bends is measured: the field found so far. The fit's
+    // own stiffness alone, scaled with the residuals, promised least error in the gaps of the sharpest pictures. It stays the upper limit, because
+    // a field found from few blocks is smoother than the truth.
+    const double bending = std::max(kMinBending_mm2, bending_variance(fit.map.u, fit.reference)),
+                 stiffness = std::min(fit.lambda, unit_variance / bending);
+    out.sigma_m =
+        sigma_map(fit.map.u, normal_matrix(fit.observations, fit.weight, fit.map.u, stiffness), unit_variance, width, height, kSigmaPitch_m, threads);
+  }
   fill_zones(fit, judged, width, height, out);
   out.internal_residual_m = quantile(judged.held_out_m, 0.5);
 

@@ -39,14 +39,14 @@ std::vector<float> gaussian_inside(int n, double sigma_px) {
   return out;
 }
 
-std::vector<float> gaussian(std::span<const float> data, int width, int height, double sigma_px, int threads) {
-  VENATO_EXPECTS(sigma_px > 0 && data.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+void gaussian(std::span<const float> data, int width, int height, double sigma_px, int threads, std::span<float> out) {
+  VENATO_EXPECTS(sigma_px > 0 && out.size() == data.size() && out.data() != data.data() &&
+                 data.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const std::vector<float> w = kernel(sigma_px);
   const int taps = static_cast<int>(w.size()), r = taps / 2;
   const int room = (width + kLanes - 1) / kLanes * kLanes;  // row length with whole lanes
   // A strip's rows across stay in the second-level cache while they are summed down.
   const int strip = std::max(64, 4 * r), strips = (height + strip - 1) / strip;
-  std::vector<float> out(data.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (int s = 0; s < strips; ++s) {
     const int from = s * strip, to = std::min(height, from + strip);
@@ -69,6 +69,5 @@ std::vector<float> gaussian(std::span<const float> data, int width, int height, 
       std::copy_n(line.begin(), width, out.begin() + static_cast<std::ptrdiff_t>(y) * width);
     }
   }
-  return out;
 }
 }  // namespace venato::sync

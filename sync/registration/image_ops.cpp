@@ -39,12 +39,17 @@ bool sample(const Feature& f, double x, double y, float& value) {
   const auto fx = catmull_rom(static_cast<float>(x - i)), fy = catmull_rom(static_cast<float>(y - j));
   const int i1 = std::min(i + 1, w - 1), j1 = std::min(j + 1, h - 1);
   if (!f.valid.at(i, j) || !f.valid.at(i1, j) || !f.valid.at(i, j1) || !f.valid.at(i1, j1)) return false;
+  const auto across = [&](const float* row, int a, int b, int c, int d) { return fx[0] * row[a] + fx[1] * row[b] + fx[2] * row[c] + fx[3] * row[d]; };
+  if (i > 0 && j > 0 && i + 2 < w && j + 2 < h) {  // away from the rim: four rows at fixed distance
+    const float* row = f.value.data.data() + f.value.index(i - 1, j - 1);
+    value = 0;
+    for (std::size_t r = 0; r < 4; ++r, row += w) value += fy[r] * across(row, 0, 1, 2, 3);
+    return true;
+  }
   const int columns[4] = {std::max(i - 1, 0), i, i1, std::min(i + 2, w - 1)}, rows[4] = {std::max(j - 1, 0), j, j1, std::min(j + 2, h - 1)};
   float sum = 0;
-  for (int r = 0; r < 4; ++r) {
-    const float* row = f.value.data.data() + f.value.index(0, rows[r]);
-    sum += fy[static_cast<std::size_t>(r)] * (fx[0] * row[columns[0]] + fx[1] * row[columns[1]] + fx[2] * row[columns[2]] + fx[3] * row[columns[3]]);
-  }
+  for (std::size_t r = 0; r < 4; ++r)
+    sum += fy[r] * across(f.value.data.data() + f.value.index(0, rows[r]), columns[0], columns[1], columns[2], columns[3]);
   value = sum;
   return true;
 }
@@ -105,20 +110,24 @@ Feature downsample(const Feature& f, int factor, int threads) {
   const double pitch_m = f.value.pitch_m * factor;
   Feature out{graphics::RasterF(w, h, 1, pitch_m), graphics::Raster8(w, h, 1, pitch_m)};
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (int j = 0; j < h; ++j)
+  for (int j = 0; j < h; ++j) {
+    const int j0 = j * factor, j1 = std::min(f.value.height, j0 + factor);
     for (int i = 0; i < w; ++i) {
-      const int i1 = std::min(f.value.width, (i + 1) * factor), j1 = std::min(f.value.height, (j + 1) * factor);
+      const int i0 = i * factor, i1 = std::min(f.value.width, i0 + factor);
       float sum = 0;
       int count = 0;
-      for (int y = j * factor; y < j1; ++y)
-        for (int x = i * factor; x < i1; ++x) {
-          sum += f.value.at(x, y);  // 0 where invalid
-          count += f.valid.at(x, y) ? 1 : 0;
+      for (int y = j0; y < j1; ++y) {
+        const std::size_t row = f.value.index(0, y);
+        for (std::size_t k = row + static_cast<std::size_t>(i0); k < row + static_cast<std::size_t>(i1); ++k) {
+          sum += f.value.data[k];  // 0 where invalid
+          count += f.valid.data[k] ? 1 : 0;
         }
-      if (2 * count <= (i1 - i * factor) * (j1 - j * factor)) continue;
+      }
+      if (2 * count <= (i1 - i0) * (j1 - j0)) continue;
       out.value.at(i, j) = sum / static_cast<float>(count);
       out.valid.at(i, j) = 255;
     }
+  }
   return out;
 }
 

@@ -3,12 +3,13 @@
 #include <array>
 #include <cmath>
 #include "base/expects.h"
+#include "sync/registration/block_sums.h"
 namespace venato::sync {
 namespace {
 constexpr int kAtOnce = 4;  // neighbouring shifts that share the loads of the block
 
 using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));  // GCC/Clang vectors; two SSE registers where there is no AVX2
-static_assert(kPatchLanes == 16);
+static_assert(kPatchLanes == 8);
 
 /// out[d] = sum over the block of a(x, y) * b(x + d, y) for d = 0..3; a is padded with zeros to whole lanes.
 __attribute__((target_clones("avx2", "default"))) void dots(const float* a, int a_stride, const float* b, int b_stride, int lanes_width, int height,
@@ -16,13 +17,17 @@ __attribute__((target_clones("avx2", "default"))) void dots(const float* a, int 
   Eight low[kAtOnce] = {}, high[kAtOnce] = {};
   for (int j = 0; j < height; ++j) {
     const float *ra = a + static_cast<std::ptrdiff_t>(j) * a_stride, *rb = b + static_cast<std::ptrdiff_t>(j) * b_stride;
-    for (int i = 0; i < lanes_width; i += kPatchLanes) {
+    int i = 0;
+    for (; i + 16 <= lanes_width; i += 16) {
       const Eight al = *reinterpret_cast<const Eight*>(ra + i), ah = *reinterpret_cast<const Eight*>(ra + i + 8);
       for (int d = 0; d < kAtOnce; ++d) {
         low[d] += al * *reinterpret_cast<const Eight*>(rb + i + d);
         high[d] += ah * *reinterpret_cast<const Eight*>(rb + i + d + 8);
       }
     }
+    if (i == lanes_width) continue;
+    const Eight al = *reinterpret_cast<const Eight*>(ra + i);
+    for (int d = 0; d < kAtOnce; ++d) low[d] += al * *reinterpret_cast<const Eight*>(rb + i + d);
   }
   for (int d = 0; d < kAtOnce; ++d) {
     double sum = 0;
@@ -37,28 +42,36 @@ std::vector<float> squares_of(const std::vector<float>& v) {
   return out;
 }
 
-/// Sums over any rectangle by running totals; double is exact enough for values of 0..1.
+/// Sums over the boxes of a window that a block of width x height covers at n x n shifts; double is exact enough for values of 0..1.
 class BoxSums {
  public:
-  BoxSums(const std::vector<float>& v, int width, int height, int stride)
-      : columns_(static_cast<std::size_t>(width + 1)), total_(columns_ * static_cast<std::size_t>(height + 1), 0.0) {
-    for (int j = 0; j < height; ++j) {
-      double row = 0;
-      for (int i = 0; i < width; ++i) {
-        row += static_cast<double>(v[static_cast<std::size_t>(j * stride + i)]);
-        const std::size_t below = static_cast<std::size_t>(j + 1) * columns_ + static_cast<std::size_t>(i + 1);
-        total_[below] = total_[below - columns_] + row;
+  BoxSums() = default;
+  BoxSums(const std::vector<float>& v, int stride, int width, int height, int n) : n_(n), sum_(static_cast<std::size_t>(n * n)) {
+    const int columns = width + n - 1;
+    std::vector<double> column(static_cast<std::size_t>(columns), 0.0);
+    const auto add = [&](int row, double sign) {
+      const float* const from = v.data() + static_cast<std::ptrdiff_t>(row) * stride;
+      for (int i = 0; i < columns; ++i) column[static_cast<std::size_t>(i)] += sign * static_cast<double>(from[i]);
+    };
+    for (int j = 0; j < height; ++j) add(j, 1);
+    for (int y = 0; y < n; ++y) {
+      if (y > 0) {
+        add(y - 1, -1);
+        add(y + height - 1, 1);
+      }
+      double sum = 0;
+      for (int i = 0; i < width; ++i) sum += column[static_cast<std::size_t>(i)];
+      for (int x = 0; x < n; ++x) {
+        if (x > 0) sum += column[static_cast<std::size_t>(x + width - 1)] - column[static_cast<std::size_t>(x - 1)];
+        sum_[static_cast<std::size_t>(y * n + x)] = sum;
       }
     }
   }
-  double sum(int x, int y, int width, int height) const {
-    const auto at = [&](int i, int j) { return total_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)]; };
-    return at(x + width, y + height) - at(x, y + height) - at(x + width, y) + at(x, y);
-  }
+  double at(int x, int y) const { return sum_[static_cast<std::size_t>(y * n_ + x)]; }
 
  private:
-  std::size_t columns_;
-  std::vector<double> total_;
+  int n_ = 0;
+  std::vector<double> sum_;
 };
 }  // namespace
 
@@ -92,18 +105,21 @@ Surface ncc_surface(const Patch& block, const Patch& window, int s, double min_v
   VENATO_EXPECTS(block.stride % kPatchLanes == 0 && window.stride >= window_room(block.stride, s) && window.height == block.height + 2 * s);
   const int n = 2 * s + 1;
   Surface out{s, std::vector<double>(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), std::nan(""))};
-  const std::vector<float> window_square = squares_of(window.value), block_square = squares_of(block.value);
+  const std::vector<float> window_square = squares_of(window.value);
+  const bool boxed = block.all_valid;
+  const std::vector<float> block_square = boxed && window.all_valid ? std::vector<float>{} : squares_of(block.value);
   double block_sum = 0, block_squares = 0;
-  for (std::size_t k = 0; k < block_square.size(); ++k) {
-    block_sum += static_cast<double>(block.value[k]);
-    block_squares += static_cast<double>(block_square[k]);
+  for (int j = 0; j < block.height; ++j) {
+    const RectSums row = row_sums(block.value.data() + static_cast<std::ptrdiff_t>(j) * block.stride, block.stride);
+    block_sum += row.sum;
+    block_squares += row.squares;
   }
   const double area = static_cast<double>(block.width) * block.height;
   // A whole block leaves sums over boxes of the window; only what the window's own holes take from the block's sums needs products.
-  const bool boxed = block.all_valid;
-  const int rows = boxed ? window.height : 0;
-  const BoxSums sums(window.value, window.width, rows, window.stride), squares(window_square, window.width, rows, window.stride),
-      counts(window.mask, window.width, window.all_valid ? 0 : rows, window.stride);
+  const auto boxes = [&](const std::vector<float>& v, bool wanted) {
+    return wanted ? BoxSums(v, window.stride, block.width, block.height, n) : BoxSums();
+  };
+  const BoxSums sums = boxes(window.value, boxed), squares = boxes(window_square, boxed), counts = boxes(window.mask, boxed && !window.all_valid);
   enum Product : std::size_t { kCross, kCount, kBlock, kBlockSquare, kWindow, kWindowSquare };
   std::array<std::array<double, kAtOnce>, 6> of{};
   for (int y = 0; y < n; ++y)
@@ -116,9 +132,9 @@ Surface ncc_surface(const Patch& block, const Patch& window, int s, double min_v
       if (boxed) {
         for (int d = 0; d < here; ++d) {
           const auto k = static_cast<std::size_t>(d);
-          of[kCount][k] = window.all_valid ? area : counts.sum(x + d, y, block.width, block.height);
-          of[kWindow][k] = sums.sum(x + d, y, block.width, block.height);
-          of[kWindowSquare][k] = squares.sum(x + d, y, block.width, block.height);
+          of[kCount][k] = window.all_valid ? area : counts.at(x + d, y);
+          of[kWindow][k] = sums.at(x + d, y);
+          of[kWindowSquare][k] = squares.at(x + d, y);
         }
       } else {
         fill(kCount, block.mask, window.mask);

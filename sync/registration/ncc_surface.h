@@ -3,7 +3,7 @@
 #include "sync/registration/image_ops.h"
 namespace venato::sync {
 
-constexpr int kPatchLanes = 16;  ///< pixels summed side by side: a fixed order of sums on every SIMD width
+constexpr int kPatchLanes = 8;  ///< block rows are whole multiples: a fixed order of sums on every SIMD width
 
 /// Window around a block with rows of zeros on the right, so that inner loops run over whole lanes.
 struct Patch {

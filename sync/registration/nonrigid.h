@@ -18,7 +18,9 @@ struct NonrigidResult {
   int textured = 0;                           ///< blocks of the last pass that ought to have matched
   double blur_print_m = 0, blur_green_m = 0;  ///< extra smoothing of the last level that made both sides equally sharp
   BlockSettings last_level;
-  BandMatrix normal_matrix{1, 0};
+  double lambda = 0;           ///< of the last fit
+  std::vector<double> weight;  ///< robust weight of each observation in the last fit
+  BSplineField reference;      ///< the prior field on the last level's grid
 };
 /// Four levels of block matching and robust spline fits (registration_print.md 1.3 step 3), starting from `start` and bending towards its field.
 /// Slabs whose shorter side is below 0.6 m get blocks and control points scaled down with it.

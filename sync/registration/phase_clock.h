@@ -18,8 +18,10 @@ class PhaseClock {
     const auto t = now();
     const auto at = std::find_if(phases_.begin(), phases_.end(), [&](const Phase& p) { return p.name == name; });
     const double seconds = std::chrono::duration<double>(t - last_).count();
-    if (at == phases_.end()) phases_.push_back({name, seconds});
-    else at->seconds += seconds;
+    if (at == phases_.end())
+      phases_.push_back({name, seconds});
+    else
+      at->seconds += seconds;
     last_ = t;
   }
 

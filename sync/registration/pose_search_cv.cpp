@@ -8,7 +8,7 @@ namespace venato::sync {
 namespace {
 constexpr double kDistinct_m = 0.060;  // candidates nearer than this are the same place (registration_print.md 1.5 T2)
 constexpr int kPeaksPerPose = 6;
-constexpr double kAliasSafety = 0.85;  // the turned slab's box is a little wider than the slab
+constexpr double kAliasSafety = 0.85;       // the turned slab's box is a little wider than the slab
 constexpr double kMinVarianceShare = 0.02;  // of the whole picture's variance: below it the overlap shows no veins and NCC is noise
 
 struct Grid {  // one normalised feature on the search grid
@@ -124,8 +124,8 @@ std::vector<Peak> peaks(const cv::Mat& score, const cv::Mat& ncc, const cv::Mat&
 }
 
 /// Masked NCC map of one feature; `n` is the overlap count map.
-void ncc_maps(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, double full_count, double min_overlap, bool positive_only,
-                cv::Mat& ncc, cv::Mat& score, cv::Mat& overlap) {
+void ncc_maps(const Spectra& fixed, const Spectra& moving, const cv::Mat& n, double full_count, double min_overlap, bool positive_only, cv::Mat& ncc,
+              cv::Mat& score, cv::Mat& overlap) {
   const cv::Mat cross = correlate(fixed.value, moving.value), sum_f = correlate(fixed.value, moving.mask),
                 sum_ff = correlate(fixed.square, moving.mask), sum_m = correlate(fixed.mask, moving.value),
                 sum_mm = correlate(fixed.mask, moving.square);
@@ -184,7 +184,8 @@ double pick(std::vector<Found>& found, const std::vector<Pose>& all, int keep, b
 PoseSearch search_poses(const Features& green, const Features& print, double pitch_m, const RegistrationConfig& config, bool polarity_known, int keep,
                         int threads) {
   const double fine_m = green.gradient.value.pitch_m;  // twice as coarse as the evidence: factors that end on one grid
-  const int factor = std::max(1, static_cast<int>(std::lround(pitch_m / fine_m))), evidence_factor = factor * edge_factor(green.signed_evidence.value.pitch_m);
+  const int factor = std::max(1, static_cast<int>(std::lround(pitch_m / fine_m))),
+            evidence_factor = factor * edge_factor(green.signed_evidence.value.pitch_m);
   const auto evidence = [&](const Features& f) { return downsample(f.signed_evidence, evidence_factor, threads); };
   const Feature green_features[2] = {downsample(green.gradient, factor, threads), evidence(green)};
   const Grid print_grids[2] = {normalised(downsample(print.gradient, factor, threads)), normalised(evidence(print))};

@@ -9,7 +9,7 @@ namespace venato::sync {
 namespace {
 constexpr double kPitch_m = 0.001;    // registration_print.md 0: features at 1 px/mm, never at print resolution
 constexpr double kMaxPixels = 2.5e7;  // 5 m x 5 m at 1 mm; larger pictures get a coarser grid
-constexpr double kSmallSlab_m = 1.0, kSmallPose_m = 0.004, kPose_m = 0.012;  // grid of the pose search
+constexpr double kSmallSlab_m = 1.0, kSmallPose_m = 0.004, kPose_m = 0.012;     // grid of the pose search
 constexpr double kMinContrastFraction = 0.004, kMinContrastLightness = 0.0015;  // standard deviation that still is a picture of veins
 constexpr double kMinIsotropy = 0.02;                                           // structure tensor; straight stripes have < 0.01
 constexpr double kMinSide_m = 0.08;                                             // two of the smallest blocks
@@ -62,10 +62,17 @@ Transform prepend(const Transform& prior, const Transform& e, double width_m, do
 }
 /// Pixels of the print that lie on the valid slab under an affine map (a prior's small field does not matter for a 40 mm background).
 graphics::Raster8 footprint(const Feature& print, const Feature& green, const Transform& pose, int threads) {
-  Transform green_from_print;
-  green_from_print.a = pose.a.inverse();
-  green_from_print.t = -(green_from_print.a * pose.t);
-  return warp_to_green(green, green_from_print, print.value.width, print.value.height, threads).valid;
+  const Eigen::Matrix2d back = pose.a.inverse();
+  const double pitch = print.value.pitch_m;
+  graphics::Raster8 out(print.value.width, print.value.height, 1, pitch);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int j = 0; j < out.height; ++j)
+    for (int i = 0; i < out.width; ++i) {
+      const Point p = back * (Point(i + 0.5, j + 0.5) * pitch - pose.t) / pitch;
+      if (p.x() >= 0 && p.y() >= 0 && p.x() < green.value.width && p.y() < green.value.height)
+        out.at(i, j) = green.valid.at(static_cast<int>(p.x()), static_cast<int>(p.y()));
+    }
+  return out;
 }
 }  // namespace
 
@@ -132,7 +139,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   const int width = green_features.signed_evidence.value.width, height = green_features.signed_evidence.value.height;
   const Feature moved = prior ? warp_to_green(print_features.signed_evidence, *prior, width, height, context.threads) : Feature{};
   const Feature& target = prior ? moved : print_features.signed_evidence;
-  const RefinedPose pose = refine_poses(green_features.signed_evidence, target, search.candidates, factor_4mm, config, polarity_known, context.threads);
+  const RefinedPose pose =
+      refine_poses(green_features.signed_evidence, target, search.candidates, factor_4mm, config, polarity_known, context.threads);
   if (!pose.ok) {
     fail(out, {"T1", pose.ecc, 0, false, "an affine pose exists"}, pose.why_not);
     context.progress.end();
@@ -142,7 +150,8 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
   clock.lap("affine refinement");
 
   const Transform start = prior ? prepend(*prior, pose.pose, width * pitch, height * pitch) : pose.pose;
-  Feature print_signed = as_picture ? band_pass(print_base, grain, footprint(print_base, green_base, start, context.threads), context.threads) : print_features.signed_evidence;
+  Feature print_signed = as_picture ? band_pass(print_base, grain, footprint(print_base, green_base, start, context.threads), context.threads)
+                                    : print_features.signed_evidence;
   if (pose.polarity < 0)
     for (float& v : print_signed.value.data) v = -v;
   clock.lap("start of the displacement");

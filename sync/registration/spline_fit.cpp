@@ -52,7 +52,54 @@ void add_bending(BandMatrix& m, const NodeOrder& n, double lambda) {
     }
 }
 Point residual(const Observation& o, const BSplineField& u) { return o.displacement_m - u.displacement(o.at_m); }
+void add_evidence(BandMatrix& normal, std::span<const Footprint> footprints, std::span<const Observation> observations,
+                  std::span<const double> weight) {
+  for (std::size_t o = 0; o < observations.size(); ++o) {
+    const Footprint& f = footprints[o];
+    const Eigen::Matrix2d w = weight[o] * observations[o].information;
+    for (std::size_t a = 0; a < 16; ++a)
+      for (std::size_t b = 0; b < 16; ++b)
+        if (f.place[b] <= f.place[a]) add(normal, f.place[a], f.place[b], f.weight[a] * f.weight[b] * w);
+  }
+}
+void reweigh(std::span<const Observation> observations, const BSplineField& u, double robust_m, std::vector<double>& weight) {
+  const double delta = robust_m * kMm;
+  for (std::size_t o = 0; o < observations.size(); ++o) {
+    const double half_trace = observations[o].information.trace() / 2;
+    const double m2 = half_trace > 0 ? weighted_square(observations[o], u) / half_trace : 0;
+    weight[o] = 1 / (1 + m2 / (delta * delta));
+  }
+}
 }  // namespace
+
+BandMatrix normal_matrix(std::span<const Observation> observations, std::span<const double> weight, const BSplineField& u, double lambda) {
+  VENATO_EXPECTS(weight.size() == observations.size());
+  const NodeOrder order(u);
+  BandMatrix out(2 * u.nx * u.ny, order.half_band());
+  add_bending(out, order, lambda);
+  std::vector<Footprint> footprints;
+  for (const Observation& o : observations) footprints.push_back(footprint(u, o.at_m));
+  add_evidence(out, footprints, observations, weight);
+  return out;
+}
+
+double bending_variance(const BSplineField& u, const BSplineField& reference) {
+  VENATO_EXPECTS(u.nx == reference.nx && u.ny == reference.ny);
+  double energy = 0;
+  for (const auto& [of, from] : {std::pair(&u.cx, &reference.cx), std::pair(&u.cy, &reference.cy)}) {
+    const auto at = [&, c = of, z = from](int i, int j) {
+      const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(u.nx) + static_cast<std::size_t>(i);
+      return ((*c)[k] - (*z)[k]) * kMm;
+    };
+    for (int j = 0; j < u.ny; ++j)
+      for (int i = 0; i < u.nx; ++i) {
+        if (i + 2 < u.nx) energy += std::pow(at(i, j) - 2 * at(i + 1, j) + at(i + 2, j), 2);
+        if (j + 2 < u.ny) energy += std::pow(at(i, j) - 2 * at(i, j + 1) + at(i, j + 2), 2);
+        if (i + 1 < u.nx && j + 1 < u.ny) energy += 2 * std::pow(at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1), 2);
+      }
+  }
+  return energy / (2.0 * u.nx * u.ny);
+}
 
 double weighted_square(const Observation& o, const BSplineField& u) {
   const Point e = residual(o, u) * kMm;
@@ -64,11 +111,13 @@ double residual_across_m(const Observation& o, const BSplineField& u) {
   return std::abs(eigen.eigenvectors().col(1).dot(residual(o, u)));
 }
 
-FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings) {
+FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings,
+                     const BSplineField* start) {
   VENATO_EXPECTS(reference.nx >= 4 && reference.ny >= 4 && settings.rounds >= 1);
   FitResult out;
   out.u = reference;
   out.weight.assign(observations.size(), 1.0);
+  if (start) reweigh(observations, *start, settings.robust_m, out.weight);
   const NodeOrder order(reference);
   const int nodes = reference.nx * reference.ny;
   BandMatrix bending(2 * nodes, order.half_band());
@@ -79,34 +128,31 @@ FitResult fit_spline(std::span<const Observation> observations, const BSplineFie
     footprints.push_back(footprint(reference, o.at_m));
     wanted.push_back((o.displacement_m - reference.displacement(o.at_m)) * kMm);
   }
+  BandMatrix normal(1, 0);
   for (int round = 0; round < settings.rounds; ++round) {
-    BandMatrix normal = bending;
+    const bool last = round + 1 == settings.rounds;
+    if (last)
+      normal = std::move(bending);
+    else
+      normal = bending;
+    add_evidence(normal, footprints, observations, out.weight);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * nodes);
     for (std::size_t o = 0; o < observations.size(); ++o) {
       const Footprint& f = footprints[o];
       const Eigen::Matrix2d w = out.weight[o] * observations[o].information;
       const Point wd = w * wanted[o];
-      for (std::size_t a = 0; a < 16; ++a) {
-        right.segment<2>(2 * f.place[a]) += f.weight[a] * wd;
-        for (std::size_t b = 0; b < 16; ++b) add(normal, f.place[a], f.place[b], f.weight[a] * f.weight[b] * w);
-      }
+      for (std::size_t a = 0; a < 16; ++a) right.segment<2>(2 * f.place[a]) += f.weight[a] * wd;
     }
-    const bool last = round + 1 == settings.rounds;
-    if (last) out.normal_matrix = normal;
-    const Eigen::VectorXd change = BandCholesky(std::move(normal)).solve(std::move(right));
+    BandCholesky factor(std::move(normal));
+    const Eigen::VectorXd change = factor.solve(std::move(right));
+    normal = std::move(factor).release();
     for (int j = 0; j < reference.ny; ++j)
       for (int i = 0; i < reference.nx; ++i) {
         const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(reference.nx) + static_cast<std::size_t>(i);
         out.u.cx[k] = reference.cx[k] + change(2 * order.at(i, j)) / kMm;
         out.u.cy[k] = reference.cy[k] + change(2 * order.at(i, j) + 1) / kMm;
       }
-    if (last) break;  // the weights returned are those the result was fitted with
-    for (std::size_t o = 0; o < observations.size(); ++o) {
-      const double half_trace = observations[o].information.trace() / 2;
-      const double m2 = half_trace > 0 ? weighted_square(observations[o], out.u) / half_trace : 0;
-      const double delta = settings.robust_m * kMm;
-      out.weight[o] = 1 / (1 + m2 / (delta * delta));
-    }
+    if (!last) reweigh(observations, out.u, settings.robust_m, out.weight);  // the weights returned are those the result was fitted with
   }
   return out;
 }

@@ -20,8 +20,7 @@ struct FitSettings {
 };
 struct FitResult {
   BSplineField u;
-  std::vector<double> weight;                 ///< robust weight per observation, 0..1
-  BandMatrix normal_matrix{1, 0};  ///< [1/mm^2]; unknown 2 NodeOrder(u).at(i, j) + component
+  std::vector<double> weight;  ///< robust weight per observation, 0..1
 };
 /// Numbering of the control points along the shorter side first, which makes the band of the normal matrix narrow.
 struct NodeOrder {
@@ -33,9 +32,15 @@ struct NodeOrder {
 /// min sum rho((d - u)^T W (d - u)) + lambda bending(u - reference) over the coefficients of a uniform cubic B-spline. Bending = squared second
 /// differences of the coefficients in x and in y + 2 x squared mixed first differences, per component. Normal equations in a band.
 /// \param reference  field on the wanted grid; the fit is pulled towards its shape (zeros: towards an affine map)
+/// \param start  field whose residuals give the first round's robust weights; without one all weights start at 1
 /// \throws WorkError when the normal matrix cannot be factorised (cannot happen for finite input: a weak ridge keeps it definite)
-FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings);
+FitResult fit_spline(std::span<const Observation> observations, const BSplineField& reference, const FitSettings& settings,
+                     const BSplineField* start = nullptr);
 
+/// Normal matrix of the fit [1/mm^2] on u's grid, with other weights of observations and bending than a fit used.
+BandMatrix normal_matrix(std::span<const Observation> observations, std::span<const double> weight, const BSplineField& u, double lambda);
+/// Variance of one bending term of u - reference [mm^2] if its coefficients were drawn with independent bending terms: bending / unknowns.
+double bending_variance(const BSplineField& u, const BSplineField& reference);
 /// Squared residual (d - u)^T W (d - u) [-].
 double weighted_square(const Observation& o, const BSplineField& u);
 /// |residual| along the better known direction of W [m]: the misfit across the vein.

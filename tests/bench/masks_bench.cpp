@@ -245,7 +245,8 @@ int main(int argc, char** argv) {
   getrusage(RUSAGE_SELF, &usage);
   double bytes = 0;
   for (const auto& file : set.files) bytes += static_cast<double>(file.bytes);
-  std::printf("set_s %.2f size %lld %lld bytes %.0f peak_mib %.0f\n", wall, static_cast<long long>(set.width_px),
-              static_cast<long long>(set.height_px), bytes, static_cast<double>(usage.ru_maxrss) / 1024);
+  std::printf("set_s %.2f size %lld %lld bytes %.0f peak_mib %.0f warp_s %.2f compress_s %.2f write_s %.2f finish_s %.2f\n", wall,
+              static_cast<long long>(set.width_px), static_cast<long long>(set.height_px), bytes, static_cast<double>(usage.ru_maxrss) / 1024,
+              set.times.warp_s / threads, set.times.compress_s / threads, set.times.write_s / threads, set.times.finish_s);
   return 0;
 }

@@ -72,9 +72,12 @@ Rest rest(int n, double e, double rayleigh, int settle, int watch) {
     weight += kG * sim.grain(sim.add_grain(scene::grain(at, r))).mass_kg;
   }
   sim.step(settle);
-  // Spins that settling left behind on grains held by a single contact are taken away once.
-  for (const GrainId id : sim.grain_ids()) sim.set_velocity(id, Vec3::Zero(), Vec3::Zero());
-  sim.step(settle / 4);
+  // What settling left behind on grains that twist would shake the bed for longer than anybody can watch, and comes back from the springs when it is
+  // taken away once: so twenty times.
+  for (int k = 0; k < 20; ++k) {
+    for (const GrainId id : sim.grain_ids()) sim.set_velocity(id, Vec3::Zero(), Vec3::Zero());
+    sim.step(settle / 80);
+  }
   const std::vector<GrainState> before = sim.grains();
   const double scale = n * kGrain.mass() * kG * static_overlap(kGrain, kGrain.mass() * kG);
   const Motion early = motion_of(sim, scale);

@@ -4,9 +4,11 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "sync/mask/mask_job.h"
+#include "sync/mask/staged_folder.h"
 #include "tests/sync/mask/mask_fixture.h"
 
 namespace venato::sync {
@@ -65,6 +67,46 @@ TEST(MasksKilled, LeaveNoFileUnderAFinalNameAndTheNextRunClearsUp) {
     EXPECT_TRUE(!is_partial(name) || name == ".partial-notes") << name;
   }
   EXPECT_TRUE(fs::exists(again / "masks.json"));
+}
+
+TEST(MasksKilled, BetweenTheRenamesEveryFileIsWholeAndTheNextRunCompletes) {
+  constexpr int kFiles = 3000;  // renames take long enough for the kill to fall between them
+  const auto content = [](int k) { return std::string(2000, static_cast<char>('a' + k % 26)) + std::to_string(k); };
+  const test::TempFolder out;
+  int killed_between = 0;
+  for (int attempt = 0; attempt < 20 && killed_between == 0; ++attempt) {
+    const fs::path folder = out.path / std::to_string(attempt);
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      StagedFolder staged(folder);
+      for (int k = 0; k < kFiles; ++k) std::ofstream(staged.path() / ("file_" + std::to_string(k))) << content(k);
+      std::ofstream(staged.path() / "masks.json") << "{}";
+      staged.publish("masks.json");
+      ::_exit(0);
+    }
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!fs::exists(folder / "file_0") && std::chrono::steady_clock::now() < give_up) std::this_thread::yield();  // the first in name order
+    ::kill(child, SIGKILL);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    if (fs::exists(folder / "masks.json")) continue;  // all renames were done before the signal arrived
+    int whole = 0;
+    for (int k = 0; k < kFiles; ++k)
+      if (const fs::path file = folder / ("file_" + std::to_string(k)); fs::exists(file)) {
+        EXPECT_EQ(test::bytes_of(file), content(k));
+        ++whole;
+      }
+    ASSERT_GT(whole, 0);
+    if (whole == kFiles) continue;  // only the sidecar was missing
+    ++killed_between;
+
+    test::TestContext t;
+    const MaskSet set = write_masks(test::small_job(), folder, t.context);
+    EXPECT_TRUE(fs::exists(folder / "masks.json"));
+    for (const auto& f : set.files) EXPECT_EQ(fs::file_size(folder / f.name), f.bytes) << f.name;
+    for (const auto& name : names_in(folder)) EXPECT_FALSE(is_partial(name)) << name;
+  }
+  EXPECT_EQ(killed_between, 1) << "no kill fell between two renames";
 }
 }  // namespace
 }  // namespace venato::sync

@@ -1,7 +1,8 @@
-// The printer files through other people's programs: every pixel of every file as we meant it. A program that is not installed skips its test, aloud.
+// The printer files through other people's programs: every pixel of every file as we meant it. ./check installs them; a missing one fails its test.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "graphics/graphic.h"
 #include "sync/mask/mask_job.h"
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 bool installed(const std::string& program) { return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0; }
 #define NEEDS(program, package) \
-  if (!installed(program)) GTEST_SKIP() << program " (Debian: " package ") is not installed: nothing was checked with it"
+  ASSERT_TRUE(installed(program)) << program " (Debian: " package ") is not installed: nothing was checked with it"
 
 std::string text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 
@@ -85,6 +86,25 @@ TEST_P(ReadBack, ImageMagick) {  // version 6 sees five channels at most: the gr
   }
   run("convert " + file("preview.png").string() + " -depth 8 rgb:" + scratch("preview.raw").string());
   EXPECT_TRUE(test::bytes_of(scratch("preview.raw")) == text(graphics::load_picture(file("preview.png"), std::nullopt).pixels.data));
+}
+
+TEST_P(ReadBack, GhostscriptPrintsThePreview) {  // a PostScript page around it, rendered at its own resolution: the same pixels
+  NEEDS("gs", "ghostscript");
+  NEEDS("convert", "imagemagick");
+  const auto picture = graphics::load_picture(file("preview.png"), std::nullopt).pixels;
+  const std::string w = std::to_string(picture.width), h = std::to_string(picture.height);
+  run("convert " + file("preview.png").string() + " -depth 8 rgb:" + scratch("preview.raw").string());
+  std::ofstream page(scratch("page.ps"), std::ios::binary);
+  page << "%!PS\n<< /PageSize [" << w << " " << h << "] >> setpagedevice\n/row 3 " << w << " mul string def\n"
+       << w << " " << h << " scale " << w << " " << h << " 8 [" << w << " 0 0 -" << h << " 0 " << h
+       << "] { currentfile row readhexstring pop } false 3 colorimage\n";
+  constexpr char digits[] = "0123456789abcdef";
+  for (const char c : test::bytes_of(scratch("preview.raw"))) page << digits[static_cast<unsigned char>(c) >> 4] << digits[c & 15];
+  page << "\nshowpage\n";
+  page.close();
+  run("gs -q -dSAFER -dBATCH -dNOPAUSE -sDEVICE=ppmraw -r72 -sOutputFile=" + scratch("page.ppm").string() + " " + scratch("page.ps").string());
+  run("convert " + scratch("page.ppm").string() + " -depth 8 rgb:" + scratch("page.raw").string());
+  EXPECT_TRUE(test::bytes_of(scratch("page.raw")) == text(picture.data));
 }
 
 TEST_P(ReadBack, AWrongPixelIsSeen) {  // the comparison itself
