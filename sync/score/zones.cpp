@@ -92,7 +92,8 @@ SlabScore score_zones(const graphics::Raster8& body, const graphics::Raster8& pr
   if (!(c.zone_m > 0) || c.resamples < 1) throw UsageError("score: zones and the number of resamples must be positive");
   SlabScore out;
   const double width = body.width_m(), height = body.height_m();
-  out.columns = std::max(1, static_cast<int>(std::lround(width / c.zone_m))), out.rows = std::max(1, static_cast<int>(std::lround(height / c.zone_m)));
+  out.columns = std::max(1, static_cast<int>(std::lround(width / c.zone_m))),
+  out.rows = std::max(1, static_cast<int>(std::lround(height / c.zone_m)));
   const double wide = width / out.columns, high = height / out.rows;
   const std::size_t classes = static_cast<std::size_t>(std::ceil(config.search_m / kClass_m)) + 1;
   std::vector<Sums> sums(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows), Sums{std::vector<double>(classes)});
@@ -114,7 +115,8 @@ SlabScore score_zones(const graphics::Raster8& body, const graphics::Raster8& pr
   }
   Sums total{std::vector<double>(classes)};
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    const double column = static_cast<double>(k % static_cast<std::size_t>(out.columns)), row = static_cast<double>(k / static_cast<std::size_t>(out.columns));
+    const double column = static_cast<double>(k % static_cast<std::size_t>(out.columns)),
+                 row = static_cast<double>(k / static_cast<std::size_t>(out.columns));
     ZoneScore z;
     z.x_m = column * wide, z.y_m = row * high, z.width_m = wide, z.height_m = high;
     fill(z, sums[k], c);

@@ -14,9 +14,9 @@ enum class Verdict { good, fair, low_match, bad, no_evidence };
 const char* name(Verdict verdict);  ///< "good", "fair", "low_match", "bad", "no_evidence"
 
 struct ZoneConfig {
-  double zone_m = 0.2;            ///< about, each way: the slab is divided evenly
-  double least_length_m = 0.05;   ///< of print and body centre line together; less is no evidence
-  int resamples = 2000;           ///< of the bootstrap
+  double zone_m = 0.2;           ///< about, each way: the slab is divided evenly
+  double least_length_m = 0.05;  ///< of print and body centre line together; less is no evidence
+  int resamples = 2000;          ///< of the bootstrap
   std::uint64_t seed = 1;
   Tolerance tolerance;
 };
@@ -34,8 +34,8 @@ struct SlabScore {
   int columns = 0, rows = 0;
   std::vector<ZoneScore> zones;  ///< row by row
   ZoneScore whole;
-  /// 95 % intervals, bootstrap over zones: veins within a zone are off together, zones much less so. They tell what another slab of the same kind could
-  /// read, not what the registration or the vein map itself may be wrong by.
+  /// 95 % intervals, bootstrap over zones: veins within a zone are off together, zones much less so. They tell what another slab of the same kind
+  /// could read, not what the registration or the vein map itself may be wrong by.
   Interval median, p95, matched;
 };
 /// \param body, print as in score_masks() \throws UsageError as there, or for a zone or number of resamples that is not positive

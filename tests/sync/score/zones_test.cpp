@@ -7,7 +7,8 @@ namespace venato::sync {
 namespace {
 using graphics::Raster8;
 
-/// 400 x 800 mm at 1 mm, straight veins 6 mm wide along y every 50 mm; `shift_mm(column, row)` of the zone of 200 mm that the pixel is in, 1000 = none.
+/// 400 x 800 mm at 1 mm, straight veins 6 mm wide along y every 50 mm; `shift_mm(column, row)` of the zone of 200 mm that the pixel is in, 1000 =
+/// none.
 template <class F>
 Raster8 veins(const F& shift_mm) {
   Raster8 m(400, 800, 1, 0.001);
@@ -59,7 +60,8 @@ TEST(Zones, IntervalsSpreadWithTheZonesAndShrinkToNothingWithoutSpread) {
   // Eight zones, half at 0 and half at 2 mm: with 8 draws the median lies at either end in about a third of the resamples each.
   EXPECT_LT(two.median.low, 1e-4);
   EXPECT_NEAR(two.median.high, 0.002, 5e-5);
-  const SlabScore lone = score_zones(veins([](int i, int j) { return i + j ? 1000.0 : 0.0; }), veins([](int i, int j) { return i + j ? 1000.0 : 0.0; }), {}, {});
+  const SlabScore lone =
+      score_zones(veins([](int i, int j) { return i + j ? 1000.0 : 0.0; }), veins([](int i, int j) { return i + j ? 1000.0 : 0.0; }), {}, {});
   EXPECT_TRUE(std::isnan(lone.p95.low));  // one zone tells nothing about others
 }
 
