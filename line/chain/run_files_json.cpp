@@ -84,11 +84,15 @@ Json result_json(const LineConfig& c, const LineRun& run) {
 }
 }  // namespace
 
-void write_score_json(const std::filesystem::path& file, const SyncResult& s) {
+void write_score_json(const std::filesystem::path& file, const LineConfig& c, const SyncResult& s) {
   sync::ScoreReport report;
   report.before = s.before;
   report.after = s.after;
   report.best_reachable = s.best;
+  report.body_edge = s.body_edge;
+  report.print_edge = s.print_edge;
+  report.zones = s.zones;
+  report.tolerance = c.sync.zones.tolerance;
   report.before_definition = "the graphic printed as designed: its first corner on the slab's, unturned, sized for the dried slab";
   report.after_definition = "the graphic moved by the registration's print_from_green";
   report.best_reachable_definition =

@@ -129,7 +129,7 @@ RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, 
   write_vein_map(staging / "vein_map.tif", run.vein_map, context.threads);
   write_figures(staging, config, run, design, flatten_layers(layers, false));
   write_run_h5(staging / "run.h5", config, run);
-  write_score_json(staging / "score.json", run.sync);
+  write_score_json(staging / "score.json", config, run.sync);
   clock.lap("files");
   write_run_json(staging / "run.json", config, run, context);
   write_report(staging);

@@ -40,7 +40,7 @@ RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, 
 // ---- parts of the run folder -------------------------------------------------------------------------------------------------
 void write_run_h5(const std::filesystem::path& file, const LineConfig& config, const LineRun& run);
 void write_run_json(const std::filesystem::path& file, const LineConfig& config, const LineRun& run, const Context& context);
-void write_score_json(const std::filesystem::path& file, const SyncResult& sync);
+void write_score_json(const std::filesystem::path& file, const LineConfig& config, const SyncResult& sync);
 void write_vein_map(const std::filesystem::path& file, const graphics::VeinMap& map, int threads);
 /// Of the printer files, what no config key says.
 struct MaskChoices {

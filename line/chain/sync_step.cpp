@@ -54,8 +54,17 @@ SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, c
   out.print_best = exact_mask_on_green(out.print_fraction, exact, width, height, pitch, threshold);
 
   out.before = sync::score_masks(out.body, out.print_before, c.sync.score);
-  if (out.registration.success) out.after = sync::score_masks(out.body, out.print_after, c.sync.score);
+  if (out.registration.success) {
+    out.after = sync::score_masks(out.body, out.print_after, c.sync.score);
+    auto zones = c.sync.zones;
+    zones.seed = c.basics.seed;
+    out.zones = sync::score_zones(out.body, out.print_after, c.sync.score, zones);
+  }
   out.best = sync::score_masks(out.body, out.print_best, c.sync.score);
+  out.body_edge = sync::edge_widths(vein, sync::centre_links(out.body, c.sync.score.min_width_m));
+  graphics::Raster8 graphic_veins(out.print_fraction.width, out.print_fraction.height, 1, out.print_fraction.pitch_m);
+  for (std::size_t k = 0; k < graphic_veins.data.size(); ++k) graphic_veins.data[k] = out.print_fraction.data[k] > threshold ? 255 : 0;
+  out.print_edge = sync::edge_widths(out.print_fraction, sync::centre_links(graphic_veins, c.sync.score.min_width_m));
   out.residuals_before = sync::centreline_residuals(out.body, out.print_before, c.sync.score);
   out.residuals_after = out.registration.success ? sync::centreline_residuals(out.body, out.print_after, c.sync.score) : out.residuals_before;
   out.residuals_best = sync::centreline_residuals(out.body, out.print_best, c.sync.score);

@@ -10,6 +10,7 @@
 #include "line/stages/stage_api.h"
 #include "sync/registration/registration.h"
 #include "sync/score/score.h"
+#include "sync/score/zones.h"
 namespace venato::line {
 
 inline constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
@@ -52,6 +53,7 @@ struct VeinMapConfig {
 struct SyncConfig {
   sync::RegistrationConfig registration;
   sync::ScoreConfig score;
+  sync::ZoneConfig zones;
   double threshold = 0.5;  ///< a pixel belongs to a vein when its vein fraction is above
 };
 struct MasksConfig {

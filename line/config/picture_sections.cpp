@@ -85,6 +85,17 @@ void read_sync(ObjectReader& r, SyncConfig& s) {
   r.number("min_overlap", g.min_overlap, {0.05, 1, "1"}, {"least overlap of the two pictures", 0.35});
   r.number("displacement_limit_mm", g.displacement_limit_m, {1, 500, "mm"}, {"largest displacement beyond the pose that is believed", 40.0});
   r.number("search_mm", s.score.search_m, {1, 200, "mm"}, {"score: a print vein looks this far for its body vein", 15.0});
+  r.number("zone_mm", s.zones.zone_m, {20, 5000, "mm"}, {"score: side of the zones that get a verdict of their own, about", 200.0});
+  r.object(
+      "tolerance", "what print and body may be off by before the slab is waste",
+      [&](ObjectReader& o) {
+        auto& t = s.zones.tolerance;
+        o.number("good_median_mm", t.good_median_m, {0.05, 50, "mm"}, {"largest median of the centre-line distance that is good", 1.0, true});
+        o.number("good_p95_mm", t.good_p95_m, {0.05, 50, "mm"}, {"largest 95th percentile that is good", 2.0, true});
+        o.number("fair_p95_mm", t.fair_p95_m, {0.05, 50, "mm"}, {"largest 95th percentile that is acceptable", 3.0, true});
+        o.number("least_matched_length", t.least_matched, {0, 1, "1"}, {"least share of the vein length with a partner", 0.8, true});
+      },
+      false);
   r.number("vein_threshold", s.threshold, {0.05, 0.95, "1"}, {"score: vein where the vein fraction is above this", 0.5});
 }
 

@@ -9,12 +9,9 @@
 #include "line/report/curve_plots.h"
 #include "line/report/html.h"
 #include "line/report/report_data.h"
+#include "line/report/zone_map.h"
 namespace venato::line {
 namespace {
-// Tolerance until a plant says otherwise: median <= 1 mm and P95 <= 2 mm good, P95 <= 3 mm acceptable, more is visible at an eased or mitred edge.
-constexpr double kGoodMedian_mm = 1.0, kGoodP95_mm = 2.0, kFairP95_mm = 3.0;
-constexpr double kLowMatch = 0.8;  // below it a distance on matched length alone would flatter
-
 using Data = ReportData;
 
 std::string format(const char* f, double a, double b = 0, double c = 0) {
@@ -75,18 +72,29 @@ std::string Page::verdict() const {
   if (!d.registered)
     return "<div class=\"verdict bad\"><strong>Not synchronised</strong>The graphic could not be matched to the slab: " + html_escape(d.reason) +
            ". The print files are as designed; do not expect print and body to line up.</div>\n";
-  const bool low_match = !(d.after.matched >= kLowMatch);
-  const bool good = d.after.median_mm <= kGoodMedian_mm && d.after.p95_mm <= kGoodP95_mm && !low_match,
-             fair = d.after.p95_mm <= kFairP95_mm && !low_match;
-  const char* kind = good ? "good" : fair ? "fair" : "bad";
-  const char* head = good ? "Within tolerance" : fair ? "Acceptable, not yet good" : low_match ? "Too few veins line up" : "Outside tolerance";
-  std::string out = "<div class=\"verdict " + std::string(kind) + "\"><strong>" + head + "</strong>";
+  struct Head {
+    const char *verdict, *kind, *text;
+  };
+  constexpr Head kHeads[] = {{"good", "good", "Within tolerance"},
+                             {"fair", "fair", "Acceptable, not yet good"},
+                             {"low_match", "bad", "Too few veins line up"},
+                             {"bad", "bad", "Outside tolerance"},
+                             {"no_evidence", "bad", "No veins to judge by"}};
+  const Head* head = &kHeads[4];
+  for (const Head& h : kHeads)
+    if (d.verdict.slab == h.verdict) head = &h;
+  std::string out = "<div class=\"verdict " + std::string(head->kind) + "\"><strong>" + head->text + "</strong>";
   out += format(
       "After synchronisation half of the vein length lies within %.2f mm of its body vein and 95 %% within %.2f mm, on %.0f %% of the length. ",
       d.after.median_mm, d.after.p95_mm, d.after.matched * 100);
+  if (std::isfinite(d.verdict.p95_low_mm))
+    out += format("Another slab of this kind would read %.2f to %.2f mm ", d.verdict.median_low_mm, d.verdict.median_high_mm) +
+           format("and %.2f to %.2f mm (95 %%, bootstrap over zones). ", d.verdict.p95_low_mm, d.verdict.p95_high_mm);
   out += format("Before it was %.2f mm and %.2f mm on %.0f %%. ", d.before.median_mm, d.before.p95_mm, d.before.matched * 100);
   out += format("With the simulation's own displacement it would be %.2f mm and %.2f mm. ", d.best.median_mm, d.best.p95_mm);
-  return out + "Tolerance: median 1 mm and P95 2 mm is good, P95 3 mm acceptable.</div>\n";
+  return out + format("Tolerance: median %g mm and P95 %g mm is good, P95 %g mm acceptable", d.verdict.good_median_mm, d.verdict.good_p95_mm,
+                      d.verdict.fair_p95_mm) +
+         format("; at least %.0f %% of the vein length must have a partner.</div>\n", 100 * d.verdict.least_matched);
 }
 
 std::string Page::scores() const {
@@ -122,8 +130,12 @@ std::string Page::scores() const {
   for (const auto& r : rows)
     out += std::string(r.main ? "<tr class=\"main\">" : "<tr>") + "<td>" + r.name + "</td><td class=\"n\">" + r.value(d.before) +
            "</td><td class=\"n\">" + r.value(d.after) + "</td><td class=\"n\">" + r.value(d.best) + "</td><td>" + r.meaning + "</td></tr>\n";
+  out += "</table></div>\n";
+  if (std::isfinite(d.body_edge_mm))
+    out += "<p>Half of the body's vein edges rise from 10 to 90 % within " + fixed(d.body_edge_mm, 1) + " mm (the plan's vein edges of the graphic: " +
+           fixed(d.print_edge_mm, 1) + " mm).</p>\n";
   return out +
-         "</table></div>\n<p class=\"sub\">Distances count on matched length only, so read them with the matched length. Best reachable uses the "
+         "<p class=\"sub\">Distances count on matched length only, so read them with the matched length. Best reachable uses the "
          "displacement that the simulation itself produced; "
          "it is a reference, not a strict bound: the print is moved by the mean displacement of the layer that is seen, and what is left is mostly "
          "blur and the simplification of the veins.</p>\n";
@@ -143,6 +155,7 @@ std::string Page::overlay() const {
         "only</span>"
         "<span><i style=\"background:#2d2d32\"></i>both</span></p>\n";
   }
+  out += zone_map_html(d);
   out += grid(
       select([](const auto& f) { return f.section == "sync" && f.file != "figures/overlay_before.png" && f.file != "figures/overlay_after.png"; }),
       false);

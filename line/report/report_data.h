@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -25,6 +26,15 @@ struct ReportStage {
   std::map<std::string, double> kpi, figures;
   std::vector<std::string> warnings;
 };
+struct ReportZone {
+  std::string verdict;  ///< of sync::Verdict
+  double x_mm, y_mm, width_mm, height_mm, median_mm, p95_mm, matched, found;
+};
+struct ReportVerdict {
+  std::string slab;  ///< of sync::Verdict, or "not_registered"
+  double good_median_mm, good_p95_mm, fair_p95_mm, least_matched;
+  double median_low_mm, median_high_mm, p95_low_mm, p95_high_mm;  ///< 95 % intervals
+};
 struct ReportPlaceholder {
   std::string pointer, value, unit, help;
 };
@@ -34,9 +44,12 @@ struct ReportData {
   double peak_memory_gib = 0;
   std::vector<std::pair<std::string, std::string>> asked;  ///< label, value
   ReportMetrics before{}, after{}, best{};
+  ReportVerdict verdict{};
+  std::vector<ReportZone> zones;  ///< row by row
   bool registered = false;
   std::string reason;
   double confidence = 0, internal_residual_mm = 0, true_median_mm = 0, true_p95_mm = 0, top_bottom_mm = 0;
+  double body_edge_mm = std::numeric_limits<double>::quiet_NaN(), print_edge_mm = body_edge_mm;  ///< 10-90 % edge width, median
   std::vector<ReportGate> gates;
   std::vector<ReportStage> stages;
   double feed_kg = 0, slab_kg = 0;

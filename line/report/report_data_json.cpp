@@ -8,6 +8,7 @@ namespace venato::line {
 namespace {
 using Json = nlohmann::ordered_json;
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 double number(const Json& j) { return j.is_number() ? j.get<double>() : std::numeric_limits<double>::quiet_NaN(); }
 
 Json read_json(const std::filesystem::path& file) {
@@ -121,6 +122,23 @@ void read_score(const Json& score, ReportData& d) {
   d.before = metrics(score, "before");
   d.after = metrics(score, "after");
   d.best = metrics(score, "best_reachable");
+  if (const auto& details = score.at("details"); details.contains("edge_width_10_90_mm")) {
+    const auto& edge = details.at("edge_width_10_90_mm");
+    if (edge.at("body").is_object()) d.body_edge_mm = number(edge.at("body").at("median"));
+    if (edge.at("print").is_object()) d.print_edge_mm = number(edge.at("print").at("median"));
+  }
+  const auto& v = score.at("verdict");
+  const auto& t = v.at("tolerance");
+  d.verdict = {v.at("slab"), number(t.at("good_median_mm")), number(t.at("good_p95_mm")), number(t.at("fair_p95_mm")), number(t.at("least_matched_length")),
+               kNone, kNone, kNone, kNone};
+  if (v.contains("interval_95")) {
+    const auto &median = v.at("interval_95").at("median_mm"), &p95 = v.at("interval_95").at("p95_mm");
+    d.verdict.median_low_mm = number(median.at(0)), d.verdict.median_high_mm = number(median.at(1));
+    d.verdict.p95_low_mm = number(p95.at(0)), d.verdict.p95_high_mm = number(p95.at(1));
+  }
+  for (const auto& z : score.at("details").at("score_zones"))
+    d.zones.push_back({z.at("verdict"), number(z.at("x_mm")), number(z.at("y_mm")), number(z.at("width_mm")), number(z.at("height_mm")),
+                       number(z.at("median_mm")), number(z.at("p95_mm")), number(z.at("matched_length")), number(z.at("body_length_found"))});
   const auto& r = score.at("registration");
   d.registered = r.at("success");
   d.reason = r.at("reason");

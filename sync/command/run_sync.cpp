@@ -92,14 +92,18 @@ int run_sync(const SyncOptions& options, Context& context) {
   report.before_definition = kBeforeDefinition;
   report.after_definition = kAfterDefinition;
   report.evidence = evidence.name;
+  report.tolerance = options.zones.tolerance;
   report.best_reachable_definition = kNoiseFloorDefinition;
   const graphics::Raster8 before = print_on_green(Transform{});
   report.before = score_masks(body, before, options.score);
+  report.body_edge = edge_widths(vein_map.fraction, centre_links(body, options.score.min_width_m));
+  report.print_edge = edge_widths(graphic.fraction, centre_links(vein_mask(graphic.fraction), options.score.min_width_m));
   graphics::Raster8 after;
   OverlayTexts texts;
   if (registration.success) {
     after = print_on_green(registration.print_from_green);
     report.after = score_masks(body, after, options.score);
+    report.zones = score_zones(body, after, options.score, options.zones);
     report.pose_only = score_masks(body, print_on_green(registration.pose_only), options.score);
     report.best_reachable = noise_floor(evidence, vein_map.fraction, registration, options.registration, options.score, context);
     if (!report.best_reachable) report.best_reachable_definition += "; not available: the slab's own copy did not pass the gates";

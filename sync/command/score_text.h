@@ -3,6 +3,8 @@
 #include <string>
 #include "sync/registration/registration.h"
 #include "sync/score/score.h"
+#include "sync/score/shape.h"
+#include "sync/score/zones.h"
 namespace venato::sync {
 
 /// Everything that score.json says. Absent metrics and NaN become null.
@@ -10,6 +12,9 @@ struct ScoreReport {
   std::optional<Metrics> before, after, best_reachable;
   std::optional<Metrics> pose_only;  ///< told under "details"
   std::string before_definition, after_definition, best_reachable_definition;
+  std::optional<EdgeWidths> body_edge, print_edge;  ///< 10-90 % edge widths, told under "details"
+  std::optional<SlabScore> zones;  ///< of `after`: verdicts by zone, told under "verdict" and "details"
+  Tolerance tolerance;             ///< that they were judged by
   std::string evidence;  ///< what was compared, under "details"
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +49,47 @@ Json more(const std::optional<Metrics>& m) {
           {"assd_mm", number(m->assd_m * 1e3)}};
 }
 
+Json edges(const std::optional<EdgeWidths>& e) {
+  if (!e) return nullptr;
+  return {{"median", number(e->median_m * 1e3)}, {"p95", number(e->p95_m * 1e3)}, {"measured_share", number(e->measured)}};
+}
+
+Json interval(const Interval& i, double unit) { return Json::array({number(i.low / unit), number(i.high / unit)}); }
+
+Json verdict(const ScoreReport& report) {
+  const Tolerance& t = report.tolerance;
+  Json out = {{"tolerance",
+               {{"good_median_mm", number(t.good_median_m * 1e3)},
+                {"good_p95_mm", number(t.good_p95_m * 1e3)},
+                {"fair_p95_mm", number(t.fair_p95_m * 1e3)},
+                {"least_matched_length", number(t.least_matched)}}}};
+  out["slab"] = report.zones ? name(report.zones->whole.verdict) : "not_registered";
+  if (!report.zones) return out;
+  Json count = Json::object();
+  for (const Verdict v : {Verdict::good, Verdict::fair, Verdict::low_match, Verdict::bad, Verdict::no_evidence})
+    count[name(v)] = std::count_if(report.zones->zones.begin(), report.zones->zones.end(), [&](const ZoneScore& z) { return z.verdict == v; });
+  out["zones"] = count;
+  out["interval_95"] = {{"median_mm", interval(report.zones->median, 1e-3)},
+                        {"p95_mm", interval(report.zones->p95, 1e-3)},
+                        {"matched_length", interval(report.zones->matched, 1)}};
+  return out;
+}
+
+Json zone(const ZoneScore& z) {
+  return {{"x_mm", number(z.x_m * 1e3)},
+          {"y_mm", number(z.y_m * 1e3)},
+          {"width_mm", number(z.width_m * 1e3)},
+          {"height_mm", number(z.height_m * 1e3)},
+          {"verdict", name(z.verdict)},
+          {"median_mm", number(z.median_m * 1e3)},
+          {"p95_mm", number(z.p95_m * 1e3)},
+          {"offset_mm", number(z.offset_m * 1e3)},
+          {"matched_length", number(z.matched)},
+          {"body_length_found", number(z.found)},
+          {"print_length_mm", number(z.print_length_m * 1e3)},
+          {"body_length_mm", number(z.body_length_m * 1e3)}};
+}
+
 }  // namespace
 
 std::string score_json_text(const ScoreReport& report, const Registration& registration) {
@@ -56,6 +98,7 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
   out["after"] = contract(report.after);
   out["best_reachable"] = contract(report.best_reachable);
   out["registration"] = {{"success", registration.success}, {"reason", registration.reason}, {"confidence", number(registration.confidence)}};
+  out["verdict"] = verdict(report);
   out["before_definition"] = report.before_definition;
   out["after_definition"] = report.after_definition;
   out["best_reachable_definition"] = report.best_reachable_definition;
@@ -65,6 +108,10 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
   details["before"] = more(report.before);
   details["after"] = more(report.after);
   details["best_reachable"] = more(report.best_reachable);
+  details["edge_width_10_90_mm"] = {{"body", edges(report.body_edge)}, {"print", edges(report.print_edge)}};
+  details["score_zones"] = Json::array();
+  if (report.zones)
+    for (const ZoneScore& z : report.zones->zones) details["score_zones"].push_back(zone(z));
   details["internal_residual_mm"] = number(registration.internal_residual_m * 1e3);
   details["gates"] = Json::array();
   for (const Gate& gate : registration.gates)

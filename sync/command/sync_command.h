@@ -5,6 +5,7 @@
 #include "graphics/plan/vein_plan.h"
 #include "sync/registration/registration.h"
 #include "sync/score/score.h"
+#include "sync/score/zones.h"
 namespace venato::sync {
 
 /// `venato sync`: any two pictures of which one should be printed on the other.
@@ -17,6 +18,7 @@ struct SyncOptions {
   graphics::VeinPlanConfig plan;  ///< how veins are found in pictures; its tone is only used with `tone_given`
   bool tone_given = false;        ///< false: the tone (veins darker or lighter than the body) is chosen per picture
   ScoreConfig score;
+  ZoneConfig zones;
 };
 
 /// Writes score.json, overlay.png and, when the pictures belong together, map.csv (10 mm grid) and misfit.png into `out`.

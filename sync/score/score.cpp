@@ -11,14 +11,6 @@ namespace venato::sync {
 namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-void check(const graphics::Raster8& body, const graphics::Raster8& print) {
-  if (body.channels != 1 || print.channels != 1) throw UsageError("score: both masks must have 1 channel");
-  if (body.width != print.width || body.height != print.height)
-    throw UsageError("score: the masks differ in size: body " + std::to_string(body.width) + " x " + std::to_string(body.height) + ", print " +
-                     std::to_string(print.width) + " x " + std::to_string(print.height));
-  if (!(body.pitch_m > 0) || std::abs(body.pitch_m - print.pitch_m) > 1e-12) throw UsageError("score: both masks must have the same positive pitch");
-}
-
 /// Linear interpolation between order statistics (numpy's default).
 double percentile(std::vector<double> v, double q) {
   if (v.empty()) return kNone;
@@ -69,8 +61,16 @@ void boundary_metrics(const graphics::Raster8& body, const graphics::Raster8& pr
 
 }  // namespace
 
+void check_masks(const graphics::Raster8& body, const graphics::Raster8& print) {
+  if (body.channels != 1 || print.channels != 1) throw UsageError("score: both masks must have 1 channel");
+  if (body.width != print.width || body.height != print.height)
+    throw UsageError("score: the masks differ in size: body " + std::to_string(body.width) + " x " + std::to_string(body.height) + ", print " +
+                     std::to_string(print.width) + " x " + std::to_string(print.height));
+  if (!(body.pitch_m > 0) || std::abs(body.pitch_m - print.pitch_m) > 1e-12) throw UsageError("score: both masks must have the same positive pitch");
+}
+
 Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& print, const ScoreConfig& config) {
-  check(body, print);
+  check_masks(body, print);
   Metrics m;
   const double both = count_both(body, print), n_body = count(body), n_print = count(print);
   m.dice = ratio(2 * both, n_body + n_print);
@@ -110,7 +110,7 @@ Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& prin
 }
 
 std::vector<ResidualSample> centreline_residuals(const graphics::Raster8& body, const graphics::Raster8& print, const ScoreConfig& config) {
-  check(body, print);
+  check_masks(body, print);
   std::vector<ResidualSample> out;
   for (const NormalResidual& r : normal_residuals(centre_links(print, config.min_width_m), centre_links(body, 0), config))
     out.push_back({r.at_m.x(), r.at_m.y(), r.signed_distance_m, r.matched});

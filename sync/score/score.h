@@ -23,6 +23,8 @@ struct Metrics {
 struct ScoreConfig {
   double search_m = 0.015, min_width_m = 0.0015, direction_tolerance_rad = 0.5236, sample_step_m = 0.0005;
 };
+/// \throws UsageError unless both masks have one channel, the same size and the same positive pitch
+void check_masks(const graphics::Raster8& body, const graphics::Raster8& print);
 Metrics score_masks(const graphics::Raster8& body, const graphics::Raster8& print, const ScoreConfig& config = {});
 /// Residual per centre-line sample (print onto body), for the misfit map. Positive: the body ridge lies towards +x of the print (towards +y for veins
 /// along x); NaN where unmatched.

@@ -26,6 +26,7 @@ TEST(ScoreText, ConvertsToMillimetresAndWritesNullForNothing) {
   m.centreline_median_m = std::numeric_limits<double>::quiet_NaN();
   m.centreline_p95_m = std::numeric_limits<double>::infinity();
   report.after = m;
+  report.body_edge = EdgeWidths{0.0042, 0.009, 0.8};
   Registration registration;
   registration.success = false;
   registration.reason = "T2: \"peak\" 1.2 < 1.6";
@@ -45,6 +46,8 @@ TEST(ScoreText, ConvertsToMillimetresAndWritesNullForNothing) {
   EXPECT_EQ(j.at("after").at("dice"), 0.81);
   EXPECT_TRUE(j.at("best_reachable").at("dice").is_null());
   EXPECT_EQ(j.at("registration"), (json{{"success", false}, {"reason", "T2: \"peak\" 1.2 < 1.6"}, {"confidence", 0.25}}));
+  EXPECT_NEAR(j.at("details").at("edge_width_10_90_mm").at("body").at("median").get<double>(), 4.2, 1e-9);
+  EXPECT_TRUE(j.at("details").at("edge_width_10_90_mm").at("print").is_null());
   EXPECT_EQ(j.at("details").at("gates")[0].at("name"), "T2");
 }
 
