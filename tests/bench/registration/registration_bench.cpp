@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include "base/store/store.h"
 #include "graphics/graphic.h"
 #include "sync/overlay/overlay.h"
@@ -18,6 +19,7 @@ constexpr double kFailed_mm = 5;  // median error beyond which a found map is wr
 
 struct Options {
   int pairs = 20, unrelated = 40, threads = 2, first = 0, worst = 0;
+  double prior_error_mm = 0;  ///< 0: without
   std::string out = "out/registration", parameters = VENATO_SOURCE_DIR "/tests/bench/registration/elastix_bspline.txt";
   bool peers = true;
   std::vector<std::string> scenes;
@@ -39,11 +41,12 @@ struct Row {
 };
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// Sorted |error| [mm] on veins that the slab still has.
+/// Sorted |error| [mm] on veins that the slab still has. \param faded_only  in the faded strip alone
 template <class Map>
-std::vector<double> errors_mm(const Pair& pair, const Map& map) {
+std::vector<double> errors_mm(const Pair& pair, const Map& map, bool faded_only = false) {
   std::vector<double> out;
-  for (int j = 1; j < pair.green.height; j += 4)
+  const auto from = static_cast<int>(pair.faded_from_m * 1e3), to = static_cast<int>(pair.faded_to_m * 1e3);
+  for (int j = faded_only ? from + 1 : 1; j < (faded_only ? to : pair.green.height); j += 4)
     for (int i = 1; i < pair.green.width; i += 4) {
       const Point p = Point(i + 0.5, j + 0.5) * 1e-3, q = pair.truth(p);
       if (q.x() < 0 || q.y() < 0 || q.x() > pair.veins.width_m() || q.y() > pair.veins.height_m()) continue;
@@ -106,10 +109,10 @@ struct Runner {
     r.median.push_back(median);
     r.p95.push_back(p95);
   }
-  Registration ours(const Pair& pair, double& seconds) {
+  Registration ours(const Pair& pair, double& seconds, const std::optional<sync::Transform>& prior = {}) {
     Context context{*log, *progress, store, 0, options.threads, nullptr};
     const double start = now_s();
-    Registration r = sync::register_veins({pair.green, {}, pair.kind}, {pair.print, {}, pair.kind}, {}, {}, context);
+    Registration r = sync::register_veins({pair.green, {}, pair.kind}, {pair.print, {}, pair.kind}, {}, prior, context);
     seconds = now_s() - start;
     return r;
   }
@@ -148,9 +151,27 @@ struct Runner {
       }
       std::printf("\n");
       std::fflush(stdout);
+      if (options.prior_error_mm > 0 && settings[k].faded > 0) with_prior(pair, r, 100 + k);
       if (options.worst > 0) keep_for_drawing({k, r.success ? s::at_quantile(e, 0.95) : INFINITY, r});
       if (options.peers) peers(pair, settings[k].kind, r);
     }
+  }
+  void with_prior(const Pair& pair, const Registration& without, std::uint64_t seed) {
+    const sync::Transform prior = make_prior(pair, options.prior_error_mm * 1e-3, seed);
+    double seconds = 0;
+    const Registration r = ours(pair, seconds, prior);
+    const auto print = [&](const char* what, const auto& map) {
+      const std::vector<double> e = errors_mm(pair, map, true), all = errors_mm(pair, map);
+      std::printf("  %s: faded strip median %.3f P95 %.3f mm, whole slab median %.3f P95 %.3f mm\n", what, s::at_quantile(e, 0.5),
+                  s::at_quantile(e, 0.95), s::at_quantile(all, 0.5), s::at_quantile(all, 0.95));
+    };
+    print("the prior itself", prior);
+    if (without.success) print("without prior", without.print_from_green);
+    if (r.success)
+      print("with prior", r.print_from_green);
+    else
+      std::printf("  with prior: %s\n", r.reason.c_str());
+    std::fflush(stdout);
   }
   void keep_for_drawing(Drawn one) {
     drawn.push_back(std::move(one));
@@ -265,6 +286,8 @@ int run(int argc, char** argv) {
       o.first = std::stoi(value());
     else if (a == "--unrelated")
       o.unrelated = std::stoi(value());
+    else if (a == "--prior-error-mm")
+      o.prior_error_mm = std::stod(value());
     else if (a == "--worst")
       o.worst = std::stoi(value());
     else if (a == "--threads")
@@ -280,7 +303,7 @@ int run(int argc, char** argv) {
   }
   if (o.scenes.size() < 2)
     throw std::invalid_argument(
-        "usage: registration_bench [--pairs N] [--first N] [--unrelated N] [--worst N] [--threads N] [--out DIR] [--no-peers] SCENE.png SCENE.png...");
+        "usage: registration_bench [--pairs N] [--first N] [--unrelated N] [--worst N] [--prior-error-mm E] [--threads N] [--out DIR] [--no-peers] SCENE.png SCENE.png...");
   Runner runner;
   runner.options = o;
   for (const std::string& f : o.scenes) runner.scenes.push_back(load_scene(f));
