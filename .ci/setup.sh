@@ -32,6 +32,7 @@ libopencv-features2d-dev registration by features
 libopencv-calib3d-dev    registration: robust pose
 libtiff-dev              N-ink printer files
 libdeflate-dev           compresses their strips at twice the rate of zlib
+liblcms2-dev             RGB to inks through the ICC profile of the printer
 libassimp-dev            hopper and gate meshes (STL, OBJ)
 '
 check_packages='

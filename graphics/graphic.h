@@ -12,6 +12,12 @@ struct Ink {
   std::array<std::uint8_t, 3> solid_srgb{};  ///< colour of a fired 100 % patch
 };
 
+/// The ICC profile that a graphic was separated through.
+struct ProfileUse {
+  std::string description;        ///< its 'desc' tag
+  double out_of_gamut_share = 0;  ///< [0, 1], of the pixels: colorimetric round trip off by a CIEDE2000 difference over 3
+};
+
 /// The inkjet graphic in its own frame (print frame before synchronisation): N ink channels, 0 = no ink, 255 = full ink.
 struct Graphic {
   std::vector<Ink> inks;
@@ -19,6 +25,7 @@ struct Graphic {
   Raster8 ink;                              ///< channels = inks
   Raster8 srgb;                             ///< 3 channels: what it looks like
   bool separated_without_profile = false;   ///< true: colours are a preview, geometry is exact
+  std::optional<ProfileUse> profile;        ///< set by separate_by_profile
 };
 
 /// PNG, JPEG or TIFF picture. Pitch: `pitch_m` if given, else the dpi in the file (TIFF, PNG pHYs, JFIF).

@@ -54,6 +54,7 @@ const std::vector<Confinement> kConfined = {
     {{"hdf5.h", "hdf5_hl.h", "H5"}, "_h5", true},
     {{"opencv2/", "opencv4/"}, "_cv", false},
     {{"tiff.h", "tiffio.h", "tiffio.hxx"}, "_tiff", true},
+    {{"lcms2.h", "lcms2_plugin.h"}, "_lcms", true},
 };
 
 /// Libraries that one folder or file owns.
@@ -154,6 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
         Sample{"sync/a_cv.cpp", "#include <opencv2/core.hpp>\n", ""},
         Sample{"sync/a_cv.h", "#include <opencv2/core.hpp>\n", "sync/a_cv.h: opencv2/core.hpp belongs into *_cv.cpp"},
         Sample{"graphics/a.cpp", "#include <tiffio.h>\n", "graphics/a.cpp: tiffio.h belongs into *_tiff.cpp"},
+        Sample{"graphics/a.cpp", "#include <lcms2.h>\n", "graphics/a.cpp: lcms2.h belongs into *_lcms.cpp"},
         Sample{"dem/a.cpp", "#include <spdlog/spdlog.h>\n", "dem/a.cpp: spdlog/spdlog.h belongs into base/progress.cpp"},
         Sample{"dem/a.cpp", "int x = std::rand();\n", "dem/a.cpp: std::rand (use base/rng.h)"}, Sample{"dem/a.cpp", std::string(700, '\n'), ""},
         Sample{"dem/a.cpp", std::string(701, '\n'), "dem/a.cpp: has 701 lines, the limit is 700"},
