@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <thread>
 
@@ -65,7 +66,7 @@ std::string cpu_model_name() {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kNever = 1 << 30;  // as large as mallopt() can be told
+  constexpr int kNever = std::numeric_limits<int>::max();
   ::mallopt(M_MMAP_THRESHOLD, kNever);
   ::mallopt(M_TRIM_THRESHOLD, kNever);
 #endif

@@ -148,7 +148,7 @@ std::vector<std::int32_t> CellGrid::build(std::span<const Sphere> spheres, const
     Level& level = levels_.emplace_back();
     for (const std::int32_t k : group) level.r_max = std::max(level.r_max, spheres[static_cast<std::size_t>(k)].r);
     if (group.size() > most) most = group.size(), usual = level.r_max;
-    level.first_slot = static_cast<std::int32_t>(first);
+    level.first_place = static_cast<std::int32_t>(first);
     shape_level(level, spheres, group, box, 2 * level.r_max);
     sort_level(level, spheres, group, threads, std::span(order).subspan(first, group.size()));
     first += group.size();

@@ -73,8 +73,8 @@ class CellGrid {
     std::size_t cell(std::int64_t x, std::int64_t y, std::int64_t z) const {
       return static_cast<std::size_t>(slice * x + part_y[static_cast<std::size_t>(y)] + part_z[static_cast<std::size_t>(z)]);
     }
-    std::int32_t first_slot = 0;
-    std::vector<std::int32_t> start;  ///< [cell + 1], relative to first_slot
+    std::int32_t first_place = 0;
+    std::vector<std::int32_t> start;  ///< [cell + 1], relative to first_place
   };
   static void shape_level(Level& level, std::span<const Sphere> spheres, std::span<const std::int32_t> members, const PeriodicBox& box, double cell);
   /// Counting sort of the members into the level's cells; ties keep their order. \param order room for them all
@@ -106,7 +106,7 @@ void CellGrid::for_runs_near(double x, double y, double z, double reach_extra, c
             const std::int64_t end = std::min(to, level.rod_end_y[static_cast<std::size_t>(from)]);
             const std::size_t c = level.cell(cx, from, cz);
             const std::int32_t first = level.start[c], last = level.start[c + static_cast<std::size_t>(end - from) + 1];
-            if (first < last) visit(level.first_slot + first, level.first_slot + last);
+            if (first < last) visit(level.first_place + first, level.first_place + last);
             from = end + 1;
           }
         };

@@ -18,6 +18,11 @@ graphics::RasterF print_veins(const LineConfig& c, const graphics::Raster8& srgb
     for (int i = 0; i < out.width; ++i) out.at(i, j) = veins.fraction.at(i, j, 1);
   return out;
 }
+graphics::Raster8 veins_above(const graphics::RasterF& fraction, float threshold) {
+  graphics::Raster8 out(fraction.width, fraction.height, 1, fraction.pitch_m);
+  for (std::size_t k = 0; k < fraction.data.size(); ++k) out.data[k] = fraction.data[k] > threshold ? 255 : 0;
+  return out;
+}
 }  // namespace
 
 sync::Transform on_dried_slab(const sync::Transform& t, double scale) {
@@ -46,8 +51,7 @@ SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, c
   print.value = out.print_fraction;
   out.registration = sync::register_veins(green, print, c.sync.registration, std::nullopt, context);
 
-  out.body = graphics::Raster8(width, height, 1, pitch, std::uint8_t{0});
-  for (std::size_t k = 0; k < vein.data.size(); ++k) out.body.data[k] = vein.data[k] > threshold ? 255 : 0;
+  out.body = veins_above(vein, threshold);
   out.print_before = sync::mask_on_green(out.print_fraction, out.nominal, width, height, pitch, threshold);
   const auto& used = out.registration.success ? out.registration.print_from_green : out.nominal;
   out.print_after = out.registration.success ? sync::mask_on_green(out.print_fraction, used, width, height, pitch, threshold) : out.print_before;
@@ -62,9 +66,8 @@ SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, c
   }
   out.best = sync::score_masks(out.body, out.print_best, c.sync.score);
   out.body_edge = sync::edge_widths(vein, sync::centre_links(out.body, c.sync.score.min_width_m));
-  graphics::Raster8 graphic_veins(out.print_fraction.width, out.print_fraction.height, 1, out.print_fraction.pitch_m);
-  for (std::size_t k = 0; k < graphic_veins.data.size(); ++k) graphic_veins.data[k] = out.print_fraction.data[k] > threshold ? 255 : 0;
-  out.print_edge = sync::edge_widths(out.print_fraction, sync::centre_links(graphic_veins, c.sync.score.min_width_m));
+  out.print_edge =
+      sync::edge_widths(out.print_fraction, sync::centre_links(veins_above(out.print_fraction, threshold), c.sync.score.min_width_m));
   out.residuals_before = sync::centreline_residuals(out.body, out.print_before, c.sync.score);
   out.residuals_after = out.registration.success ? sync::centreline_residuals(out.body, out.print_after, c.sync.score) : out.residuals_before;
   out.residuals_best = sync::centreline_residuals(out.body, out.print_best, c.sync.score);

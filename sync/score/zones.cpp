@@ -30,8 +30,9 @@ struct Sums {
 Verdict judge(const ZoneScore& z, const ZoneConfig& c) {
   const Tolerance& t = c.tolerance;
   if (z.print_length_m + z.body_length_m < c.least_length_m) return Verdict::no_evidence;
-  // A zone may have veins of one kind only: then all of them are unmatched.
-  if (!(z.print_length_m > 0 && z.matched >= t.least_matched && z.body_length_m > 0 && z.found >= t.least_matched)) return Verdict::low_match;
+  // NaN: the zone has no veins of that side, which nothing can be held against; their partners may lie just across its border.
+  if (z.matched < t.least_matched || z.found < t.least_matched) return Verdict::low_match;
+  if (std::isnan(z.median_m)) return Verdict::no_evidence;
   if (z.median_m <= t.good_median_m && z.p95_m <= t.good_p95_m) return Verdict::good;
   return z.p95_m <= t.fair_p95_m ? Verdict::fair : Verdict::bad;
 }
@@ -58,13 +59,11 @@ void bootstrap(SlabScore& out, const std::vector<Sums>& sums, const ZoneConfig& 
   if (usable.size() >= 2) {
     const std::size_t n = static_cast<std::size_t>(c.resamples);
     median.resize(n), p95.resize(n), matched.resize(n);
-#pragma omp parallel for schedule(static)
-    for (std::int64_t r = 0; r < static_cast<std::int64_t>(n); ++r) {
-      Rng rng(c.seed, stream_id("sync/score/zones/bootstrap"), static_cast<std::uint64_t>(r));
+    for (std::size_t r = 0; r < n; ++r) {
+      Rng rng(c.seed, stream_id("sync/score/zones/bootstrap"), r);
       Sums total{std::vector<double>(usable.front()->length.size())};
       for (std::size_t k = 0; k < usable.size(); ++k) total.add(*usable[rng.below(usable.size())]);
-      const std::size_t at = static_cast<std::size_t>(r);
-      median[at] = total.quantile(0.5), p95[at] = total.quantile(0.95), matched[at] = total.matched / total.print;
+      median[r] = total.quantile(0.5), p95[r] = total.quantile(0.95), matched[r] = total.matched / total.print;
     }
   }
   out.median = middle_95(std::move(median)), out.p95 = middle_95(std::move(p95)), out.matched = middle_95(std::move(matched));

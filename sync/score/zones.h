@@ -39,6 +39,6 @@ struct SlabScore {
   Interval median, p95, matched;
 };
 /// \param body, print as in score_masks() \throws UsageError as there, or for a zone or number of resamples that is not positive
-/// Percentiles are read from classes of 0.01 mm. Same bytes for any number of threads. Source: Efron & Tibshirani (1993) ch. 8 (blocks resampled).
+/// Percentiles are read from classes of 0.01 mm. Source: Efron & Tibshirani (1993) ch. 8 (blocks resampled).
 SlabScore score_zones(const graphics::Raster8& body, const graphics::Raster8& print, const ScoreConfig& config, const ZoneConfig& zones);
 }  // namespace venato::sync

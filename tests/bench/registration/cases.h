@@ -28,9 +28,12 @@ struct Pair {
   sync::EvidenceKind kind = sync::EvidenceKind::vein_fraction;
   sync::synthetic::Truth truth;  ///< print_from_green
   graphics::RasterF veins;       ///< vein fraction of the print frame
+  double faded_from_m = 0, faded_to_m = 0;  ///< y of the faded strip
   graphics::RasterF kept;        ///< green frame: 1 where the vein was left, 0 where it was taken out; empty = all
 };
 Pair make_pair(const Scene& scene, const PairSettings& settings, std::uint64_t seed);
+/// What a line's simulation would predict: the truth, but off by waves of 600 to 1200 mm whose largest length is error_m, its affine part off by 2 mm.
+sync::Transform make_prior(const Pair& pair, double error_m, std::uint64_t seed);
 /// The judged set: `count` settings in a fixed order of kinds.
 std::vector<PairSettings> judged_settings(int count);
 }  // namespace venato::bench

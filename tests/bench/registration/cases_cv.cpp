@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include "tests/bench/registration/cases.h"
@@ -88,6 +89,7 @@ Pair make_pair(const Scene& scene, const PairSettings& p, std::uint64_t seed) {
   }
   slab = s::blurred(slab, p.blur_mm);
   const double from = rng.uniform() * (1 - p.faded);
+  out.faded_from_m = from * height * 1e-3, out.faded_to_m = (from + p.faded) * height * 1e-3;
   for (int j = 0; j < height; ++j) {
     const double y = (j + 0.5) / height;
     const float keep = y >= from && y < from + p.faded ? 0.2f : 1.0f;
@@ -103,6 +105,43 @@ Pair make_pair(const Scene& scene, const PairSettings& p, std::uint64_t seed) {
   return out;
 }
 
+sync::Transform make_prior(const Pair& pair, double error_m, std::uint64_t seed) {
+  const double width = pair.green.width_m(), height = pair.green.height_m();
+  Rng rng(seed, stream_id("tests/bench/registration/prior"));
+  std::vector<s::Truth::Wave> waves;
+  for (int k = 0; k < 6; ++k) {
+    const double length = 0.6 + 0.6 * rng.uniform(), heading = 2 * M_PI * rng.uniform(), sense = 2 * M_PI * rng.uniform();
+    waves.push_back(
+        {2 * M_PI / length * Point(std::cos(heading), std::sin(heading)), Point(std::cos(sense), std::sin(sense)), 2 * M_PI * rng.uniform()});
+  }
+  const auto wave_sum = [&](const Point& p) {
+    Point u = Point::Zero();
+    for (const auto& w : waves) u += w.direction * std::sin(w.k.dot(p) + w.phase);
+    return u;
+  };
+  double largest = 0;
+  for (double y = 0; y <= height; y += 0.01)
+    for (double x = 0; x <= width; x += 0.01) largest = std::max(largest, wave_sum({x, y}).norm());
+  sync::Transform out;
+  out.a = pair.truth.a;
+  out.t = pair.truth.t + Point(0.0014, -0.0014);
+  out.u = sync::make_zero_field(width, height, 0.025);
+  const auto wanted = [&](int i, int j) -> Point {
+    const Point p = out.u.origin_m + out.u.spacing_m * Point(i - 1, j - 1);
+    return pair.truth.a.inverse() * (pair.truth(p) - pair.truth.t) - p + error_m / largest * wave_sum(p);
+  };
+  // Cubic quasi-interpolation (-1, 8, -1) / 6 each way: on waves of ten spacings and more exact to 1e-3 of their height.
+  constexpr double kWeight[] = {-1.0 / 6, 8.0 / 6, -1.0 / 6};
+  for (int j = 0; j < out.u.ny; ++j)
+    for (int i = 0; i < out.u.nx; ++i) {
+      Point c = Point::Zero();
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) c += kWeight[di + 1] * kWeight[dj + 1] * wanted(i + di, j + dj);
+      const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(out.u.nx) + static_cast<std::size_t>(i);
+      out.u.cx[k] = c.x(), out.u.cy[k] = c.y();
+    }
+  return out;
+}
 std::vector<PairSettings> judged_settings(int count) {
   const std::vector<PairSettings> kinds = {{"plain 10 mm"},
                                            {"faded quarter 10 mm", 0.010, 0, 0.25},

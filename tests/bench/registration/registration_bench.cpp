@@ -4,7 +4,10 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include "base/store/store.h"
+#include "graphics/graphic.h"
+#include "sync/overlay/overlay.h"
 #include "tests/bench/registration/cases.h"
 #include "tests/bench/registration/peers.h"
 namespace venato::bench {
@@ -15,10 +18,17 @@ namespace s = sync::synthetic;
 constexpr double kFailed_mm = 5;  // median error beyond which a found map is wrong
 
 struct Options {
-  int pairs = 20, unrelated = 40, threads = 2, first = 0;
+  int pairs = 20, unrelated = 40, threads = 2, first = 0, worst = 0;
+  double prior_error_mm = 0;  ///< 0: without
   std::string out = "out/registration", parameters = VENATO_SOURCE_DIR "/tests/bench/registration/elastix_bspline.txt";
   bool peers = true;
   std::vector<std::string> scenes;
+};
+/// One related pair, kept to draw the worst of them.
+struct Drawn {
+  std::size_t index = 0;
+  double p95_mm = 0;  ///< infinite where no map was found
+  Registration result;
 };
 struct Row {
   int found = 0, pairs = 0, wrong = 0;
@@ -31,11 +41,12 @@ struct Row {
 };
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// Sorted |error| [mm] on veins that the slab still has.
+/// Sorted |error| [mm] on veins that the slab still has. \param faded_only  in the faded strip alone
 template <class Map>
-std::vector<double> errors_mm(const Pair& pair, const Map& map) {
+std::vector<double> errors_mm(const Pair& pair, const Map& map, bool faded_only = false) {
   std::vector<double> out;
-  for (int j = 1; j < pair.green.height; j += 4)
+  const auto from = static_cast<int>(pair.faded_from_m * 1e3), to = static_cast<int>(pair.faded_to_m * 1e3);
+  for (int j = faded_only ? from + 1 : 1; j < (faded_only ? to : pair.green.height); j += 4)
     for (int i = 1; i < pair.green.width; i += 4) {
       const Point p = Point(i + 0.5, j + 0.5) * 1e-3, q = pair.truth(p);
       if (q.x() < 0 || q.y() < 0 || q.x() > pair.veins.width_m() || q.y() > pair.veins.height_m()) continue;
@@ -82,6 +93,7 @@ struct Runner {
   double smallest_jacobian = 1;
   std::vector<sync::Phase> phases;  ///< summed over the whole faces
   int whole_faces = 0;
+  std::vector<Drawn> drawn;
 
   void note(const std::string& kind, const char* code, bool found, const std::vector<double>& e, double seconds) {
     Row& r = rows[kind][code];
@@ -97,10 +109,10 @@ struct Runner {
     r.median.push_back(median);
     r.p95.push_back(p95);
   }
-  Registration ours(const Pair& pair, double& seconds) {
+  Registration ours(const Pair& pair, double& seconds, const std::optional<sync::Transform>& prior = {}) {
     Context context{*log, *progress, store, 0, options.threads, nullptr};
     const double start = now_s();
-    Registration r = sync::register_veins({pair.green, {}, pair.kind}, {pair.print, {}, pair.kind}, {}, {}, context);
+    Registration r = sync::register_veins({pair.green, {}, pair.kind}, {pair.print, {}, pair.kind}, {}, prior, context);
     seconds = now_s() - start;
     return r;
   }
@@ -139,7 +151,61 @@ struct Runner {
       }
       std::printf("\n");
       std::fflush(stdout);
+      if (options.prior_error_mm > 0 && settings[k].faded > 0) with_prior(pair, r, 100 + k);
+      if (options.worst > 0) keep_for_drawing({k, r.success ? s::at_quantile(e, 0.95) : INFINITY, r});
       if (options.peers) peers(pair, settings[k].kind, r);
+    }
+  }
+  void with_prior(const Pair& pair, const Registration& without, std::uint64_t seed) {
+    const sync::Transform prior = make_prior(pair, options.prior_error_mm * 1e-3, seed);
+    double seconds = 0;
+    const Registration r = ours(pair, seconds, prior);
+    const auto print = [&](const char* what, const auto& map) {
+      const std::vector<double> e = errors_mm(pair, map, true), all = errors_mm(pair, map);
+      std::printf("  %s: faded strip median %.3f P95 %.3f mm, whole slab median %.3f P95 %.3f mm\n", what, s::at_quantile(e, 0.5),
+                  s::at_quantile(e, 0.95), s::at_quantile(all, 0.5), s::at_quantile(all, 0.95));
+    };
+    print("the prior itself", prior);
+    if (without.success) print("without prior", without.print_from_green);
+    if (r.success)
+      print("with prior", r.print_from_green);
+    else
+      std::printf("  with prior: %s\n", r.reason.c_str());
+    std::fflush(stdout);
+  }
+  void keep_for_drawing(Drawn one) {
+    drawn.push_back(std::move(one));
+    std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& l, const Drawn& r) { return l.p95_mm > r.p95_mm; });
+    if (drawn.size() > static_cast<std::size_t>(options.worst)) drawn.pop_back();
+  }
+  /// worst_NN_overlay.png: true veins on the slab against the graphic's at the nominal place and where the map found puts them.
+  /// worst_NN_error.png: |error| of the map on every vein the slab still has.
+  void draw_worst() {
+    const auto settings = judged_settings(options.first + options.pairs);
+    for (std::size_t n = 0; n < drawn.size(); ++n) {
+      const Drawn& one = drawn[n];
+      const PairSettings& setting = settings[one.index];
+      const Pair pair = make_pair(scenes[one.index % scenes.size()], setting, 100 + one.index);
+      const int width = pair.green.width, height = pair.green.height;
+      graphics::Raster8 body(width, height, 1, 1e-3), before = body, after = body;
+      std::vector<sync::ResidualSample> errors;
+      for (int j = 0; j < height; ++j)
+        for (int i = 0; i < width; ++i) {
+          const Point p = Point(i + 0.5, j + 0.5) * 1e-3, q = pair.truth(p), found = one.result.print_from_green(p);
+          const bool kept = pair.kept.empty() || pair.kept.at(i, j) >= 0.5f, vein = s::sample(pair.veins, q) >= 0.5;
+          body.at(i, j) = vein && kept ? 255 : 0;
+          before.at(i, j) = s::sample(pair.veins, p) >= 0.5 ? 255 : 0;
+          after.at(i, j) = s::sample(pair.veins, found) >= 0.5 ? 255 : 0;
+          if (vein && kept && i % 4 == 0 && j % 4 == 0) errors.push_back({p.x(), p.y(), (found - q).norm(), true});
+        }
+      char stem[32];
+      std::snprintf(stem, sizeof stem, "/worst_%02zu_", n + 1);
+      sync::OverlayTexts texts;
+      texts.left_title = "at the nominal place";
+      texts.right_title = "where the map found puts it";
+      texts.note = "pair " + std::to_string(one.index) + ": " + setting.kind + ", P95 " + std::to_string(one.p95_mm) + " mm; " + one.result.reason;
+      graphics::write_png(options.out + stem + "overlay.png", sync::overlay_figure(body, before, after, texts));
+      graphics::write_png(options.out + stem + "error.png", sync::misfit_figure(body, errors, 0.002, "|error| of the map found, " + setting.kind));
     }
   }
   void peers(const Pair& pair, const std::string& kind, const Registration& r) {
@@ -162,10 +228,10 @@ struct Runner {
   void unrelated() {
     int accepted = 0;
     double seconds = 0;
-    for (int k = 0; k < options.unrelated; ++k) {
+    for (int k = options.first; k < options.first + options.unrelated; ++k) {
       const std::size_t n = scenes.size(), a = static_cast<std::size_t>(k) % n, b = (a + 1 + static_cast<std::size_t>(k) / n % (n - 1)) % n;
       PairSettings settings;
-      settings.portion = true;
+      settings.portion = k / 2 % 2 == 1;
       settings.picture = k % 2 == 1;
       Pair pair = make_pair(scenes[a], settings, 5000 + static_cast<std::uint64_t>(k));
       pair.print = settings.picture ? scenes[b].luma : scenes[b].plan;
@@ -220,6 +286,10 @@ int run(int argc, char** argv) {
       o.first = std::stoi(value());
     else if (a == "--unrelated")
       o.unrelated = std::stoi(value());
+    else if (a == "--prior-error-mm")
+      o.prior_error_mm = std::stod(value());
+    else if (a == "--worst")
+      o.worst = std::stoi(value());
     else if (a == "--threads")
       o.threads = std::stoi(value());
     else if (a == "--out")
@@ -233,11 +303,12 @@ int run(int argc, char** argv) {
   }
   if (o.scenes.size() < 2)
     throw std::invalid_argument(
-        "usage: registration_bench [--pairs N] [--first N] [--unrelated N] [--threads N] [--out DIR] [--no-peers] SCENE.png SCENE.png...");
+        "usage: registration_bench [--pairs N] [--first N] [--unrelated N] [--worst N] [--prior-error-mm E] [--threads N] [--out DIR] [--no-peers] SCENE.png SCENE.png...");
   Runner runner;
   runner.options = o;
   for (const std::string& f : o.scenes) runner.scenes.push_back(load_scene(f));
   runner.related();
+  runner.draw_worst();
   runner.unrelated();
   runner.table();
   return 0;

@@ -139,18 +139,18 @@ struct Mean {
   double value = 0, error = 0;  ///< standard error over the seeds
 };
 template <class F>
-std::vector<Mean> means(std::size_t quantities, const F& run_one) {
+std::vector<Mean> means(std::size_t quantities, int seeds, const F& run_one) {
   std::vector<std::vector<double>> all(quantities);
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const std::vector<double> one = run_one(seed);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const std::vector<double> one = run_one(static_cast<std::uint64_t>(seed));
     for (std::size_t q = 0; q < quantities; ++q) all[q].push_back(one[q]);
   }
   std::vector<Mean> out;
   for (const auto& v : all) {
     Mean m;
-    for (const double x : v) m.value += x / kSeeds;
+    for (const double x : v) m.value += x / seeds;
     for (const double x : v) m.error += (x - m.value) * (x - m.value);
-    m.error = std::sqrt(m.error / (kSeeds - 1) / kSeeds);
+    m.error = std::sqrt(m.error / (seeds - 1) / seeds);
     out.push_back(m);
   }
   return out;
@@ -159,7 +159,7 @@ std::vector<Mean> means(std::size_t quantities, const F& run_one) {
 TEST(CoarseGraining, slot_flow_falls_as_beverloo_with_the_coarse_diameter_and_short_slopes_steepen) {
   std::vector<std::vector<Mean>> table;
   for (const double cg : kFactors) {
-    table.push_back(means(2, [&](std::uint64_t seed) {
+    table.push_back(means(2, kSeeds, [&](std::uint64_t seed) {
       const Hopper h = hopper(cg, seed);
       return std::vector<double>{h.flow_kg_s, h.slope_deg};
     }));
@@ -186,7 +186,7 @@ TEST(CoarseGraining, slot_flow_falls_as_beverloo_with_the_coarse_diameter_and_sh
 TEST(CoarseGraining, bed_under_a_gate_lacks_one_coarse_diameter) {
   std::vector<std::vector<Mean>> table;
   for (const double cg : kFactors) {
-    table.push_back(means(3, [&](std::uint64_t seed) {
+    table.push_back(means(3, cg >= 3 ? 4 * kSeeds : kSeeds, [&](std::uint64_t seed) {
       const Belt r = belt(cg, seed);
       return std::vector<double>{r.flow_kg_s, r.areal_mass_kg_m2, r.thickness_m};
     }));
@@ -196,18 +196,15 @@ TEST(CoarseGraining, bed_under_a_gate_lacks_one_coarse_diameter) {
   }
   EXPECT_GT(table[0][2].value, 0.8 * kGate);
   EXPECT_LT(table[0][2].value, kGate);
-  // A layer of one coarse diameter is missing from the bed: mass ~ gate - d'. At 2 d' the gate holds grains back altogether.
+  // A layer of one coarse diameter is missing from the bed: mass ~ gate - d'. At 2 d' the gate holds more back.
   const double h = kGate / kD;
   for (std::size_t q = 1; q < table.size(); ++q) {
     const double ratio = table[q][1].value / table[0][1].value, law = (h - kFactors[q]) / (h - 1);
     std::printf("cg %.0f: bed mass ratio %.3f, (gate - d') law %.3f\n", kFactors[q], ratio, law);
-    if (kFactors[q] <= 3) {
-      // The law is good to 5 %; the means of three runs are known to their standard errors.
-      const double random = 3 * std::hypot(table[q][1].error / table[q][1].value, table[0][1].error / table[0][1].value);
-      EXPECT_NEAR(ratio / law, 1, 0.05 + random) << "cg " << kFactors[q];
-    } else {
-      EXPECT_LT(ratio, 0.9 * law);
-    }
+    if (kFactors[q] <= 3)
+      EXPECT_NEAR(ratio / law, 1, 0.05) << "cg " << kFactors[q];
+    else  // some packings jam for a while
+      EXPECT_LT(ratio + 2 * table[q][1].error / table[0][1].value, law);
   }
 }
 }  // namespace
