@@ -17,6 +17,9 @@ struct Options {
   std::string compression = "deflate", print_polarity = "zero-is-no-ink", ink_polarity = "zero-is-full-ink";  ///< of masks
   bool powders_at_print_resolution = false;
   double vein_pitch_mm = 0, graphic_pitch_mm = 0;  ///< 0 = from the file
+  std::string turns = "none";                      ///< of sync: none, half or quarter
+  bool mirrored = false;                           ///< of sync: the graphic may lie mirrored on the slab
+  double max_rotation_deg = 3;                     ///< of sync
 };
 struct Parsed {
   Options options;

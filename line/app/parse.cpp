@@ -80,10 +80,17 @@ Parsed parse(int argc, const char* const* argv) {
   sync->add_option("--graphic-pitch-mm", o.graphic_pitch_mm, "pixel size of the graphic (default: dpi in the file)")
       ->check(CLI::Range(0.001, 1000.0))
       ->type_name("P");
+  sync->add_option("--turns", o.turns, "turns of the graphic to try: none (default), half (0, 180 deg) or quarter (0, 90, 180, 270 deg)")
+      ->check(CLI::IsMember({"none", "half", "quarter"}))
+      ->type_name("KIND");
+  sync->add_flag("--mirrored", o.mirrored, "the graphic may lie mirrored on the slab, too");
+  sync->add_option("--max-rotation-deg", o.max_rotation_deg, "how far the slab may lie turned besides (default 3)")
+      ->check(CLI::Range(0.1, 10.0))
+      ->type_name("A");
   add_out(*sync, o), add_common(*sync, o);
   sync->footer(
       "Example:\n  venato sync --vein-map out/demo/vein_map.tif --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
-      "Exit 1 when the pictures do not belong together.");
+      "The slab may be a portion of a larger graphic, anywhere in it. Exit 1 when the pictures do not belong together.");
 
   auto* masks = app.add_subcommand("masks", "printer files of a finished run again: another resolution, compression or polarity, nothing simulated");
   masks->add_option("RUN", o.input, "run folder")->required();

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
@@ -29,6 +30,13 @@ void tell_input(const char* what, const SyncInput& input, Log& log) {
 std::string error_text(const Metrics& m) {
   char text[64];
   std::snprintf(text, sizeof text, "%.2f mm on %.0f %%", m.centreline_median_m * 1e3, 100 * m.matched_length);
+  return text;
+}
+
+std::string lying_text(const Lying& l) {
+  char text[160];
+  std::snprintf(text, sizeof text, "the graphic lies turned by %d deg%s and %.2f deg more; the slab's top-left corner at %.1f, %.1f mm of the graphic",
+                l.turn_deg, l.mirrored ? ", mirrored," : "", l.rotation_rad * 180 / M_PI, l.corner_m.x() * 1e3, l.corner_m.y() * 1e3);
   return text;
 }
 
@@ -121,6 +129,7 @@ int run_sync(const SyncOptions& options, Context& context) {
                                                                 vein_map.fraction.height_m()));
   }
   write_text_atomically(options.out / "score.json", score_json_text(report, registration));
+  if (registration.success) context.log.info(lying_text(how_it_lies(registration.pose_only)));
   context.log.info(registration.success ? "registered; " + texts.note : texts.note);
   return registration.success ? 0 : 1;
 }

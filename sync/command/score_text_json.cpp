@@ -98,6 +98,13 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
   out["after"] = contract(report.after);
   out["best_reachable"] = contract(report.best_reachable);
   out["registration"] = {{"success", registration.success}, {"reason", registration.reason}, {"confidence", number(registration.confidence)}};
+  if (registration.success) {
+    const Lying l = how_it_lies(registration.pose_only);
+    out["registration"]["graphic_lies"] = {{"turn_deg", l.turn_deg},
+                                           {"mirrored", l.mirrored},
+                                           {"rotation_deg", number(l.rotation_rad * 180 / M_PI)},
+                                           {"slab_corner_in_graphic_mm", {number(l.corner_m.x() * 1e3), number(l.corner_m.y() * 1e3)}}};
+  }
   out["verdict"] = verdict(report);
   out["before_definition"] = report.before_definition;
   out["after_definition"] = report.after_definition;

@@ -40,4 +40,17 @@ Point Transform::inverse(Point print_m) const {
   throw WorkError("print_from_green folds near green point (" + std::to_string(p.x() * 1e3) + ", " + std::to_string(p.y() * 1e3) +
                   ") mm: it has no inverse there");
 }
+
+Lying how_it_lies(const Transform& affine) {
+  Lying out;
+  Eigen::Matrix2d m = affine.a;
+  out.mirrored = m.determinant() < 0;
+  if (out.mirrored) m.col(0) *= -1;
+  const double angle = std::atan2(m(1, 0) - m(0, 1), m(0, 0) + m(1, 1));
+  const int quarters = static_cast<int>(std::lround(angle / (M_PI / 2)));
+  out.turn_deg = (quarters + 4) % 4 * 90;
+  out.rotation_rad = angle - quarters * (M_PI / 2);
+  out.corner_m = affine.t;
+  return out;
+}
 }  // namespace venato::sync

@@ -48,6 +48,16 @@ struct Transform {
   Point inverse(Point print_m) const;
 };
 
+/// The affine part in words: print_from_green turns by turn_deg (0, 90, 180, 270: x towards y) and by rotation_rad (-45 to 45 deg) more, after
+/// mirroring x if `mirrored`; corner_m is where the green frame's origin lies in the print frame. Stretch is left out.
+struct Lying {
+  bool mirrored = false;
+  int turn_deg = 0;
+  double rotation_rad = 0;
+  Point corner_m = Point::Zero();
+};
+Lying how_it_lies(const Transform& affine);
+
 /// Smallest and largest Jacobian determinant of p -> p + u(p) on a grid of `step_m` over [0, width_m] x [0, height_m].
 /// All four combinations of forward and backward differences are taken: the central difference misses chequerboard folds.
 /// The map does not fold on the grid if min > 0. Source: Liu et al., IJCV 2024 (arXiv 2212.06060).
