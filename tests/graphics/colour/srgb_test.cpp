@@ -31,6 +31,19 @@ TEST(Lab, KnownColours) {
   near({0, 0, 255}, {32.30, 79.19, -107.86}, 0.02);
   near({119, 119, 119}, {50.03, 0, 0}, 0.02);
 }
+TEST(Lab, XyzGoesThereAndBack) {
+  const Xyz white = xyz_from_linear(1, 1, 1);
+  EXPECT_NEAR(white.x, 0.95047, 5e-6);  // D65, 2 degrees
+  EXPECT_NEAR(white.y, 1, 2e-7);
+  EXPECT_NEAR(white.z, 1.08883, 5e-6);
+  for (const Lab& lab : {Lab{0, 0, 0}, Lab{5, 3, -4}, Lab{50, 80, -107}, Lab{100, 0, 0}, Lab{104, -2, 3}}) {
+    const Lab back = lab_from_xyz(xyz_from_lab(lab));
+    EXPECT_NEAR(back.l, lab.l, 1e-9);
+    EXPECT_NEAR(back.a, lab.a, 1e-9);
+    EXPECT_NEAR(back.b, lab.b, 1e-9);
+  }
+  EXPECT_NEAR(lab_from_xyz({-0.001, -0.001, -0.001}).l, -0.903, 0.001);  // the line 903.3 Y goes on below zero
+}
 struct Pair {
   Lab x, y;
   double de;
