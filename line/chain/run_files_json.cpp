@@ -101,6 +101,7 @@ void write_score_json(const std::filesystem::path& file, const LineConfig& c, co
   report.best_reachable = s.best;
   report.body_edge = s.body_edge;
   report.print_edge = s.print_edge;
+  report.visibility = s.visibility;
   report.zones = s.zones;
   report.tolerance = c.sync.zones.tolerance;
   report.before_definition = "the graphic printed as designed: its first corner on the slab's, unturned, sized for the dried slab";
