@@ -54,10 +54,16 @@ Cells averaged(const RasterF& image, int cell, int pad) {
       }
       const float share = 1.0f / static_cast<float>(cell * cell);
       float* to = out.data.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(out.width);
+      if (cell == 1) {
+        std::fill_n(to, pad, column.front());
+        std::copy(column.begin(), column.end(), to + pad);
+        std::fill_n(to + pad + image.width, pad, column.back());
+        continue;
+      }
       for (int i = 0; i < out.width; ++i) {
         float sum = 0;
         for (int k = 0; k < cell; ++k) sum += column[static_cast<std::size_t>(std::clamp((i - pad) * cell + k, 0, image.width - 1))];
-        to[i] = cell == 1 ? sum : sum * share;
+        to[i] = sum * share;
       }
     }
   }

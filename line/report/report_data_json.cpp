@@ -26,6 +26,15 @@ std::string plain(double v) {
   return text;
 }
 
+/// NaN where nothing was looked at: no colours, not registered, best_reachable.
+double visible_percent(const Json& details, const char* which, double distance_m) {
+  const auto v = details.find("visibility");
+  if (v == details.end() || !v->is_object() || !v->contains(which) || !v->at(which).is_array()) return kNone;
+  for (const Json& seen : v->at(which))
+    if (number(seen.at("distance_m")) == distance_m) return number(seen.at("visible_length_percent"));
+  return kNone;
+}
+
 ReportMetrics metrics(const Json& score, const char* which) {
   const Json& m = score.at(which);
   const Json& more = score.at("details").at(which);
@@ -48,7 +57,8 @@ ReportMetrics metrics(const Json& score, const char* which) {
           detail("hd95_mm"),
           detail("area_error_percent"),
           detail("width_error_mm"),
-          detail("direction_coherence")};
+          detail("direction_coherence"),
+          visible_percent(score.at("details"), which, 1)};
 }
 
 std::map<std::string, double> numbers(const Json& object) {

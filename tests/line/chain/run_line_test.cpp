@@ -57,6 +57,7 @@ TEST(RunLine, FolderHoldsWhatTheContractSays) {
 
   const auto score = t.json("out/score.json");
   EXPECT_EQ(score.at("details").at("visibility").at("before").size(), 3u);  // 0.5, 1 and 2 m
+  EXPECT_NE(read_file(t.folder / "out/report.html").find("Visibly off from 1 m"), std::string::npos);
   EXPECT_GT(score.at("details").at("visibility").at("vein_to_ground_delta_e2000").get<double>(), 1);
   ASSERT_TRUE(outcome.registered) << outcome.reason;
   EXPECT_TRUE(score.at("registration").at("success"));
