@@ -15,6 +15,7 @@ struct SyncInput {
   bool is_fraction_map = false;  ///< float fractions of a run
   graphics::RasterF fraction;    ///< vein fraction 0..1: from the map, or planned from the picture
   graphics::Raster8 picture;     ///< sRGB or grey; empty for a fraction map
+  bool has_colours = false;      ///< the picture's are those of the print; false for fractions and inks (whose picture is their sum)
   double pitch_in_file_m = 0;    ///< of the file as loaded
   bool pitch_from_file = false;
   graphics::VeinTone tone = graphics::VeinTone::darker;  ///< how the veins of the picture were found
