@@ -35,8 +35,9 @@ std::string error_text(const Metrics& m) {
 
 std::string lying_text(const Lying& l) {
   char text[160];
-  std::snprintf(text, sizeof text, "the graphic lies turned by %d deg%s and %.2f deg more; the slab's top-left corner at %.1f, %.1f mm of the graphic",
-                l.turn_deg, l.mirrored ? ", mirrored," : "", l.rotation_rad * 180 / M_PI, l.corner_m.x() * 1e3, l.corner_m.y() * 1e3);
+  std::snprintf(text, sizeof text,
+                "the graphic lies turned by %d deg%s and %.2f deg more; the slab's top-left corner at %.1f, %.1f mm of the graphic", l.turn_deg,
+                l.mirrored ? ", mirrored," : "", l.rotation_rad * 180 / M_PI, l.corner_m.x() * 1e3, l.corner_m.y() * 1e3);
   return text;
 }
 

@@ -72,16 +72,18 @@ Json seen(const std::vector<Visibility>& list) {
 }
 Json visibility_json(const std::optional<VisibilityReport>& v) {
   if (!v) return nullptr;
-  return {{"definition",
-           "S-CIELAB difference of two pictures in the graphic's mean vein and ground colours: veins where the body has them, veins where the print lies. "
-           "Mean and P95 over what either vein covers, areas of the whole slab; visible length: of the print's centre line, where the difference across "
-           "the vein is noticeable and the shift is more than 1 arcmin or the body has no vein there; missing: of body veins without print"},
-          {"vein_srgb", v->colours.vein},
-          {"ground_srgb", v->colours.ground},
-          {"vein_to_ground_delta_e2000", number(v->colours.delta_e)},
-          {"noticeable_delta_e2000", number(v->noticeable_delta_e)},
-          {"before", seen(v->before)},
-          {"after", seen(v->after)}};
+  return {
+      {"definition",
+       "S-CIELAB difference of two pictures in the graphic's mean vein and ground colours: veins where the body has them, veins where the print "
+       "lies. "
+       "Mean and P95 over what either vein covers, areas of the whole slab; visible length: of the print's centre line, where the difference across "
+       "the vein is noticeable and the shift is more than 1 arcmin or the body has no vein there; missing: of body veins without print"},
+      {"vein_srgb", v->colours.vein},
+      {"ground_srgb", v->colours.ground},
+      {"vein_to_ground_delta_e2000", number(v->colours.delta_e)},
+      {"noticeable_delta_e2000", number(v->noticeable_delta_e)},
+      {"before", seen(v->before)},
+      {"after", seen(v->after)}};
 }
 
 Json interval(const Interval& i, double unit) { return Json::array({number(i.low / unit), number(i.high / unit)}); }
@@ -141,8 +143,9 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
         {"along_belt_percent", number(s.along * 100)},
         {"across_belt_percent", number(s.across * 100)},
         {"shear_mm_per_m", number(s.shear * 1e3)},
-        {"definition", "the slab against the graphic at the given mm per pixel, mean over the slab; positive: the slab is longer; along the belt = y of "
-                       "the slab"}};
+        {"definition",
+         "the slab against the graphic at the given mm per pixel, mean over the slab; positive: the slab is longer; along the belt = y of "
+         "the slab"}};
   }
   out["verdict"] = verdict(report);
   out["before_definition"] = report.before_definition;

@@ -61,8 +61,8 @@ struct Registration {
   std::vector<ZoneConfidence> zones;  ///< 200 mm zones of the green frame; 90 % of errors below 1.52 sigma_m
   graphics::RasterF sigma_m;          ///< one channel, 10 mm pitch, predicted error
   double internal_residual_m = 0;
-  CoarseMatch coarse;   ///< what the search for the pose saw
-  SlabStretch stretch;  ///< of print_from_green's mean affine part over the slab; zeros when !success
+  CoarseMatch coarse;         ///< what the search for the pose saw
+  SlabStretch stretch;        ///< of print_from_green's mean affine part over the slab; zeros when !success
   std::vector<Phase> phases;  ///< wall time of each step
 };
 

@@ -58,8 +58,9 @@ struct Lying {
 };
 Lying how_it_lies(const Transform& affine);
 
-/// How the slab is stretched against the graphic, in the slab's own axes: x across the belt, y along it. The affine part is rotation (and mirror) times
-/// a symmetric stretch (polar decomposition); this is the inverse of that stretch less one, so that positive = the slab is longer than the graphic.
+/// How the slab is stretched against the graphic, in the slab's own axes: x across the belt, y along it. The affine part is rotation (and mirror)
+/// times a symmetric stretch (polar decomposition); this is the inverse of that stretch less one, so that positive = the slab is longer than the
+/// graphic.
 struct SlabStretch {
   double along = 0, across = 0;  ///< [-] relative; belts of different speeds show in `along` alone, a wrong mm per pixel in both
   double shear = 0;              ///< [-] departure of the angle between x and y from 90 deg [rad], > 0 if it is smaller
