@@ -23,7 +23,7 @@ KeyDeclaration declaration_of(std::string_view key, KeyKind kind, const Opt<T>& 
   d.kind = kind;
   d.help = opt.help;
   if (opt.fallback) d.fallback = JsonValue(*opt.fallback);
-  d.required = !opt.fallback.has_value();
+  d.required = !opt.fallback.has_value() && !opt.optional;
   d.placeholder = opt.placeholder;
   return d;
 }

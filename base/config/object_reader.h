@@ -21,12 +21,13 @@ struct Range {
   std::string_view why = "";  ///< shown in the message, e.g. "press rating"
 };
 
-/// The rest of one declaration. A key without fallback is required. Fallbacks are in the key's own unit.
+/// The rest of one declaration. A key without fallback is required, unless it is `optional`: absent, `out` keeps its value. Fallbacks are in the key's own unit.
 template <class T>
 struct Opt {
   std::string_view help = "";
   std::optional<T> fallback = std::nullopt;
   bool placeholder = false;  ///< no public source for this number: marked in the reference and in the report
+  bool optional = false;     ///< for keys that are needed only beside others
 };
 
 enum class PathKind { existing_file, any };

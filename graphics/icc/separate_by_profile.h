@@ -2,7 +2,9 @@
 /// sRGB -> inks through the user's own ICC output profile (Little CMS 2). Source: ICC.1:2022 (profile format); registration_print notes 6.2.
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "graphics/colour/srgb.h"
 #include "graphics/graphic.h"
 namespace venato::graphics {
 
@@ -19,4 +21,16 @@ enum class RenderingIntent { perceptual, relative_colorimetric, saturation, abso
 /// \throws UsageError naming the file, what it is and what is wanted: missing, truncated, not an ICC profile, another class or colour space
 ///   (display, scanner, device link; RGB; over 15 inks), no table to the inks or back, damaged tables.
 Graphic separate_by_profile(const Raster8& srgb, const std::filesystem::path& profile, RenderingIntent intent, int threads);
+/// Ink amounts as they are, with names, colours and the picture (srgb) from the profile's forward table. No share out of gamut: nothing was mapped.
+/// \param ink channels = inks of the profile, 0 = no ink \throws UsageError as above, and when the channels differ
+Graphic see_by_profile(const Raster8& ink, const std::filesystem::path& profile, int threads);
+/// What the profile says without any picture. \throws UsageError as above
+struct ProfileInks {
+  std::string description;
+  std::vector<Ink> inks;
+  Srgb8 body_srgb{};
+};
+ProfileInks read_profile_inks(const std::filesystem::path& profile);
+/// "perceptual", "relative_colorimetric", …
+std::string intent_name(RenderingIntent intent);
 }  // namespace venato::graphics

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/error.h"
 #include "base/expects.h"
 #include "graphics/colour/srgb.h"
 #include "graphics/icc/profile_lcms.h"
@@ -59,17 +60,12 @@ double out_of_gamut_share(const icc::OutputProfile& profile, const Raster8& srgb
   }
   return static_cast<double>(outside) / total;
 }
-}  // namespace
+icc::Step seen_step(const icc::OutputProfile& p) { return {p.handle(), INTENT_ABSOLUTE_COLORIMETRIC}; }
+icc::Step srgb_step(const icc::OutputProfile& p) { return {p.srgb(), INTENT_ABSOLUTE_COLORIMETRIC}; }
 
-Graphic separate_by_profile(const Raster8& srgb, const std::filesystem::path& profile_file, RenderingIntent intent, int threads) {
-  VENATO_EXPECTS(srgb.channels == 3 && !srgb.empty() && threads > 0);
-  const icc::OutputProfile profile(profile_file);
-  const auto wanted = lcms_intent(intent);
-  const icc::Step from_srgb{profile.srgb(), wanted}, to_inks{profile.handle(), wanted};
-  const icc::Step seen{profile.handle(), INTENT_ABSOLUTE_COLORIMETRIC}, to_srgb{profile.srgb(), INTENT_ABSOLUTE_COLORIMETRIC};
-
-  Graphic g;
-  const auto forward = profile.transform({seen, to_srgb}, profile.ink_format(), TYPE_RGB_8, cmsFLAGS_NOOPTIMIZE);
+/// Names, the body (no ink) and the solids (one full ink) through the forward table.
+void take_colours(const icc::OutputProfile& profile, Graphic& g) {
+  const auto forward = profile.transform({seen_step(profile), srgb_step(profile)}, profile.ink_format(), TYPE_RGB_8, cmsFLAGS_NOOPTIMIZE);
   std::vector<std::uint8_t> amounts(static_cast<std::size_t>(profile.inks()), 0);
   cmsDoTransform(forward.get(), amounts.data(), g.body_srgb.data(), 1);
   for (std::size_t k = 0; k < amounts.size(); ++k) {
@@ -79,7 +75,46 @@ Graphic separate_by_profile(const Raster8& srgb, const std::filesystem::path& pr
     amounts[k] = 0;
     g.inks.push_back(ink);
   }
+}
+}  // namespace
 
+Graphic see_by_profile(const Raster8& ink, const std::filesystem::path& profile_file, int threads) {
+  VENATO_EXPECTS(!ink.empty() && threads > 0);
+  const icc::OutputProfile profile(profile_file);
+  if (ink.channels != profile.inks())
+    throw UsageError(profile_file.string() + ": is a profile of " + std::to_string(profile.inks()) + " inks; the graphic has " +
+                     std::to_string(ink.channels));
+  Graphic g;
+  take_colours(profile, g);
+  g.ink = ink;
+  g.srgb = Raster8(ink.width, ink.height, 3, ink.pitch_m);
+  // Without a precalculated grid: with many inks it would be coarser than the profile's own.
+  transform_rows(profile.transform({seen_step(profile), srgb_step(profile)}, profile.ink_format(), TYPE_RGB_8, cmsFLAGS_NOOPTIMIZE).get(), ink, g.srgb,
+                 threads);
+  g.profile = ProfileUse{profile.description(), 0};
+  return g;
+}
+
+ProfileInks read_profile_inks(const std::filesystem::path& profile_file) {
+  const icc::OutputProfile profile(profile_file);
+  Graphic g;
+  take_colours(profile, g);
+  return {profile.description(), g.inks, g.body_srgb};
+}
+
+std::string intent_name(RenderingIntent intent) {
+  constexpr std::array kNames = {"perceptual", "relative_colorimetric", "saturation", "absolute_colorimetric"};
+  return kNames.at(static_cast<std::size_t>(intent));
+}
+
+Graphic separate_by_profile(const Raster8& srgb, const std::filesystem::path& profile_file, RenderingIntent intent, int threads) {
+  VENATO_EXPECTS(srgb.channels == 3 && !srgb.empty() && threads > 0);
+  const icc::OutputProfile profile(profile_file);
+  const auto wanted = lcms_intent(intent);
+  const icc::Step from_srgb{profile.srgb(), wanted}, to_inks{profile.handle(), wanted}, seen = seen_step(profile), to_srgb = srgb_step(profile);
+
+  Graphic g;
+  take_colours(profile, g);
   g.ink = Raster8(srgb.width, srgb.height, profile.inks(), srgb.pitch_m);
   transform_rows(profile.transform({from_srgb, to_inks}, TYPE_RGB_8, profile.ink_format(), 0).get(), srgb, g.ink, threads);
   // The preview in one transform RGB -> inks -> RGB: its grid has 3 axes; one over the inks would have up to 15.

@@ -65,6 +65,7 @@ void set_description_tags(tiff* t, const TiffInfo& info) {
   }
   TIFFSetField(t, TIFFTAG_SOFTWARE, info.software.empty() ? "venato" : info.software.c_str());
   if (!info.description.empty()) TIFFSetField(t, TIFFTAG_IMAGEDESCRIPTION, info.description.c_str());
+  if (!info.icc_profile.empty()) TIFFSetField(t, TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(info.icc_profile.size()), info.icc_profile.data());
   if (info.kind != TiffKind::separated) return;
   std::string names;  // each followed by NUL, as the tag wants it
   for (const auto& n : info.ink_names) names.append(n).push_back('\0');

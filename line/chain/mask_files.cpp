@@ -1,3 +1,4 @@
+#include "base/io/atomic_file.h"
 #include "base/store/store.h"
 #include "line/chain/run_line.h"
 namespace venato::line {
@@ -15,7 +16,36 @@ sync::PowderMask powder_mask(const graphics::VeinMap& map, int powder, double sc
     for (int i = 0; i < map.fraction.width; ++i) mask.fraction.at(i, j) = map.fraction.at(i, j, powder);
   return mask;
 }
+
+sync::MaskProfile mask_profile(const LineConfig& c, const std::vector<LoadedLayer>& layers) {
+  sync::MaskProfile out;
+  out.file = c.graphic.profile;
+  out.bytes = read_file(out.file);
+  out.sha256 = sha256_hex(out.bytes);
+  out.intent = graphics::intent_name(c.graphic.profile_intent);
+  out.use = graphic_use(c, layers).profile.value();
+  return out;
+}
 }  // namespace
+
+GraphicUse graphic_use(const LineConfig& c, const std::vector<LoadedLayer>& layers) {
+  GraphicUse use;
+  use.inks = layers.front().inks.inks;
+  double pixels = 0, outside = 0;
+  for (const auto& layer : layers) {
+    use.layers_of_inks += layer.own_inks;
+    use.layers_separated += !layer.own_inks;
+    if (layer.own_inks || !layer.inks.profile) continue;
+    const auto n = static_cast<double>(layer.picture.width) * layer.picture.height;
+    pixels += n;
+    outside += n * layer.inks.profile->out_of_gamut_share;
+  }
+  if (layers.front().inks.profile) {
+    use.profile = graphics::ProfileUse{layers.front().inks.profile->description, pixels > 0 ? outside / pixels : 0};
+    use.intent = graphics::intent_name(c.graphic.profile_intent);
+  }
+  return use;
+}
 
 void write_mask_files(const std::filesystem::path& folder, const LineConfig& c, const LineRun& run, const std::vector<LoadedLayer>& layers,
                       const MaskChoices& choices, Context& context) {
@@ -25,8 +55,9 @@ void write_mask_files(const std::filesystem::path& folder, const LineConfig& c, 
   sync::MaskJob job;
   job.slab_id = c.title.empty() ? c.file.stem().string() : c.title;
   job.run_id = sha256_hex(c.resolved_json).substr(0, 16);
-  job.inks = c.graphic.inks;
-  job.body_srgb = c.graphic.body_colour;
+  job.inks = layers.front().inks.inks;
+  job.body_srgb = layers.front().inks.body_srgb;
+  if (!c.graphic.profile.empty()) job.profile = mask_profile(c, layers);
   for (const auto& layer : layers) {
     job.layers.push_back({layer.name, layer.inks.ink, layer.warp});
     job.separated_without_profile = job.separated_without_profile || layer.inks.separated_without_profile;

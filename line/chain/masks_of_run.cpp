@@ -11,6 +11,6 @@ void write_masks_of_run(const std::filesystem::path& run, const std::filesystem:
   const auto parts = read_run_for_masks(run, config);
   if (!parts.sync.registration.success)
     context.log.warn("the registration of this run did not succeed: the print files are as designed, not synchronised");
-  write_mask_files(out, config, parts, load_graphic(config), choices, context);
+  write_mask_files(out, config, parts, load_graphic(config, context.threads), choices, context);
 }
 }  // namespace venato::line

@@ -3,39 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "graphics/tiff/ink_picture.h"
+#include "line/chain/cut_to_slab.h"
 namespace venato::line {
 namespace {
 using graphics::Raster8;
-
-/// Part of a picture that the slab covers, resampled to `pitch_out_m` = the picture's own pitch times a scale. Content is moved by `placement` (print
-/// frame of the output). Bilinear; what lies outside the picture takes the colour of its border.
-Raster8 cut_to_slab(const Raster8& source, double source_pitch_m, double origin_x_m, double origin_y_m, double width_m, double height_m,
-                    double out_from_source, const sync::Transform& placement) {
-  const int width = std::max(1, static_cast<int>(std::lround(width_m / source_pitch_m))),
-            height = std::max(1, static_cast<int>(std::lround(height_m / source_pitch_m)));
-  Raster8 out(width, height, 3, source_pitch_m * out_from_source);
-  const Eigen::Matrix2d back = placement.a.transpose();  // a rotation
-  const auto value = [&](int i, int j, int c) {
-    i = std::clamp(i, 0, source.width - 1);
-    j = std::clamp(j, 0, source.height - 1);
-    return static_cast<double>(source.at(i, j, source.channels == 3 ? c : 0));
-  };
-  for (int j = 0; j < height; ++j)
-    for (int i = 0; i < width; ++i) {
-      const sync::Point p((i + 0.5) * out.pitch_m, (j + 0.5) * out.pitch_m);
-      const sync::Point content = back * (p - placement.t) / out_from_source;
-      const double x = (content.x() + origin_x_m) / source_pitch_m - 0.5, y = (content.y() + origin_y_m) / source_pitch_m - 0.5;
-      // Positions that are whole pixels but for rounding are copied exactly.
-      const int i0 = static_cast<int>(std::floor(x + 1e-6)), j0 = static_cast<int>(std::floor(y + 1e-6));
-      const double fx = std::max(0.0, x - i0), fy = std::max(0.0, y - j0);
-      for (int c = 0; c < 3; ++c) {
-        const double top = value(i0, j0, c) * (1 - fx) + value(i0 + 1, j0, c) * fx,
-                     bottom = value(i0, j0 + 1, c) * (1 - fx) + value(i0 + 1, j0 + 1, c) * fx;
-        out.at(i, j, c) = static_cast<std::uint8_t>(std::lround(top * (1 - fy) + bottom * fy));
-      }
-    }
-  return out;
-}
 
 std::string mm(double metres) {
   char text[40];
@@ -43,12 +16,20 @@ std::string mm(double metres) {
   return text;
 }
 
-/// Issues of one picture: unreadable, or the slab reaches beyond it (half a pixel of rounding allowed).
+/// \param inks  of the printer, for a file of ink amounts; nullptr for a picture
+/// Issues of one picture: unreadable, other inks than the printer's, or the slab reaches beyond it (half a pixel of rounding allowed).
 void check_one(const std::string& pointer, const std::filesystem::path& file, double pitch_m, double origin_x_m, double origin_y_m,
-               const LineBasics& b, std::vector<ConfigIssue>& issues) {
+               const LineBasics& b, const GraphicInks* inks, std::vector<ConfigIssue>& issues) {
   try {
-    const auto picture = graphics::load_picture(file, pitch_m);
-    const double width = picture.pixels.width * pitch_m, height = picture.pixels.height * pitch_m;
+    double width = 0, height = 0;
+    if (inks) {
+      const auto info = graphics::read_ink_picture_info(file);
+      width = static_cast<double>(info.width) * pitch_m, height = static_cast<double>(info.height) * pitch_m;
+      ink_channels(file, info, *inks);
+    } else {
+      const auto picture = graphics::load_picture(file, pitch_m);
+      width = picture.pixels.width * pitch_m, height = picture.pixels.height * pitch_m;
+    }
     if (origin_x_m + b.fired_width_m > width + pitch_m / 2 || origin_y_m + b.fired_length_m > height + pitch_m / 2)
       issues.push_back({pointer,
                         file.string() + " is " + mm(width) + " x " + mm(height) + " at its pitch, but the slab with its origin reaches to " +
@@ -72,25 +53,7 @@ sync::Transform placement_transform(const LineConfig& c) {
 Raster8 load_design(const LineConfig& c) {
   const auto& d = c.design;
   const auto picture = graphics::load_picture(d.image, d.pitch_m);
-  return cut_to_slab(picture.pixels, d.pitch_m, d.origin_x_m, d.origin_y_m, c.basics.fired_width_m, c.basics.fired_length_m, 1.0, sync::Transform{});
-}
-
-std::vector<LoadedLayer> load_graphic(const LineConfig& c) {
-  const auto& g = c.graphic;
-  const auto placement = placement_transform(c);
-  std::vector<LoadedLayer> layers;
-  for (const auto& layer : g.layers) {
-    const auto picture = graphics::load_picture(layer.image, g.pitch_m);
-    LoadedLayer out;
-    out.name = layer.image.stem().string();
-    out.warp = layer.warp;
-    // A layer that does not follow the veins does not take part in the trial move either: it belongs to the slab, not to the pattern.
-    out.picture = cut_to_slab(picture.pixels, g.pitch_m, g.origin_x_m, g.origin_y_m, c.basics.fired_width_m, c.basics.fired_length_m,
-                              c.basics.print_from_design(), layer.warp ? placement : sync::Transform{});
-    out.inks = graphics::separate(out.picture, g.inks, g.body_colour, g.total_ink_limit);
-    layers.push_back(std::move(out));
-  }
-  return layers;
+  return cut_to_slab(picture.pixels, d.pitch_m, d.origin_x_m, d.origin_y_m, c.basics.fired_width_m, c.basics.fired_length_m, 1.0, sync::Transform{}, 3);
 }
 
 Raster8 flatten_layers(const std::vector<LoadedLayer>& layers, bool warped_only) {
@@ -108,11 +71,18 @@ Raster8 flatten_layers(const std::vector<LoadedLayer>& layers, bool warped_only)
 
 std::vector<ConfigIssue> check_pictures(const LineConfig& c) {
   std::vector<ConfigIssue> issues;
-  check_one("/design/image", c.design.image, c.design.pitch_m, c.design.origin_x_m, c.design.origin_y_m, c.basics, issues);
+  check_one("/design/image", c.design.image, c.design.pitch_m, c.design.origin_x_m, c.design.origin_y_m, c.basics, nullptr, issues);
   const auto& g = c.graphic;
+  GraphicInks inks;
+  try {
+    inks = graphic_inks(c);
+  } catch (const UsageError& e) {
+    issues.push_back({"/graphic/profile", e.what(), ""});
+    return issues;
+  }
   for (std::size_t k = 0; k < g.layers.size(); ++k) {
     check_one(g.single_image ? "/graphic/image" : "/graphic/layers/" + std::to_string(k) + "/image", g.layers[k].image, g.pitch_m, g.origin_x_m,
-              g.origin_y_m, c.basics, issues);
+              g.origin_y_m, c.basics, graphics::is_separated_tiff(g.layers[k].image) ? &inks : nullptr, issues);
   }
   return issues;
 }

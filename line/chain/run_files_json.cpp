@@ -55,6 +55,15 @@ Json figures_json(const LineRun& run) {
   return out;
 }
 
+Json graphic_json(const GraphicUse& g) {
+  Json inks = Json::array();
+  for (const auto& ink : g.inks) inks.push_back({{"name", ink.name}});
+  Json out{{"inks", inks}, {"layers_of_inks", g.layers_of_inks}, {"layers_separated", g.layers_separated}, {"profile", nullptr}};
+  if (g.profile)
+    out["profile"] = {{"description", g.profile->description}, {"intent", g.intent}, {"out_of_gamut_share", number(g.profile->out_of_gamut_share)}};
+  return out;
+}
+
 Json result_json(const LineConfig& c, const LineRun& run) {
   const auto& b = c.basics;
   const auto& r = run.sync.registration;
@@ -69,6 +78,7 @@ Json result_json(const LineConfig& c, const LineRun& run) {
             {"green_length_mm", millimetres(size.length_m)},
             {"top_bottom_offset_mm", millimetres(run.top_bottom_offset_m)},
             {"polish_depth_mm", millimetres(c.vein_map.polish_depth_m)}}},
+          {"graphic", graphic_json(run.graphic)},
           {"registration",
            {{"success", r.success},
             {"reason", r.reason},
@@ -91,6 +101,7 @@ void write_score_json(const std::filesystem::path& file, const LineConfig& c, co
   report.best_reachable = s.best;
   report.body_edge = s.body_edge;
   report.print_edge = s.print_edge;
+  report.visibility = s.visibility;
   report.zones = s.zones;
   report.tolerance = c.sync.zones.tolerance;
   report.before_definition = "the graphic printed as designed: its first corner on the slab's, unturned, sized for the dried slab";

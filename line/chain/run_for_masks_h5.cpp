@@ -69,6 +69,8 @@ void check_graphic(const H5Reader& h5, const LineConfig& c) {
   for (std::size_t k = 0; k < c.graphic.layers.size(); ++k)
     if (k >= hashes.size() || sha256_of_file(c.graphic.layers[k].image) != hashes[k])
       throw UsageError(c.graphic.layers[k].image.string() + ": has changed since the run; run the line again");
+  if (!c.graphic.profile.empty() && h5.strings("/graphic/profile_sha256").at(0) != sha256_of_file(c.graphic.profile))
+    throw UsageError(c.graphic.profile.string() + ": has changed since the run; run the line again");
 }
 }  // namespace
 

@@ -136,6 +136,8 @@ void write_run_h5(const std::filesystem::path& file, const LineConfig& c, const 
   std::vector<std::string> hashes;
   for (const auto& layer : c.graphic.layers) hashes.push_back(sha256_of_file(layer.image));
   h5.strings("/graphic/sha256", hashes, {"1", "layer", "none", "SHA-256 of the picture of each layer of the graphic"});
+  if (!c.graphic.profile.empty())
+    h5.strings("/graphic/profile_sha256", {sha256_of_file(c.graphic.profile)}, {"1", "profile", "none", "SHA-256 of the ICC profile of the printer"});
   raster(h5, "/registration/sigma", run.sync.registration.sigma_m, "m", "green", "predicted error of the registration");
   write_residuals(h5, "/residuals/before", run.sync.residuals_before);
   write_residuals(h5, "/residuals/after", run.sync.residuals_after);

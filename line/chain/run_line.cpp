@@ -33,7 +33,7 @@ class Clock {
 double expected_output_bytes(const LineConfig& c) {
   const auto size = green_size(c.basics);
   const double per_metre = c.graphic.print_dpi / 0.0254;
-  const double print = size.width_m * size.length_m * per_metre * per_metre * static_cast<double>(c.graphic.inks.size()) * kPrintBytesPerInk;
+  const double print = size.width_m * size.length_m * per_metre * per_metre * static_cast<double>(graphic_inks(c).inks.size()) * kPrintBytesPerInk;
   // Separated inks of stone graphics shrink to a tenth or less with deflate; the grey files hold the same data once more.
   return 2 * print / 10 + 8.0 * static_cast<double>(c.basics.grid.columns()) * c.basics.grid.nz + 64e6;
 }
@@ -113,11 +113,12 @@ RunOutcome run_line(const LineConfig& config, const std::filesystem::path& out, 
   run.top_bottom_offset_m = top_bottom_offset(config.basics, run.slab(), context.threads);
   clock.lap("error bars");
 
-  const auto layers = load_graphic(config);
+  const auto layers = load_graphic(config, context.threads);
   const auto coarse = coarse_basics(config, config.vein_map.coarse_pitch_m);
   run.layer_shift_m = layer_shifts(config, coarse, operators, commands, context);
   const double thickness = sample_bilinear(run.slab().thickness_m, green_size(config.basics).width_m / 2, green_size(config.basics).length_m / 2, 0);
   const auto exact = make_exact_map(config, run.slab(), run.jitter, run.layer_shift_m, zeta_at_depth(config.vein_map.polish_depth_m, thickness));
+  run.graphic = graphic_use(config, layers);
   run.sync = synchronise(config, run.vein_map, layers, exact, context);
   if (!run.sync.registration.success)
     run.warnings.push_back("registration failed: " + run.sync.registration.reason + "; the print files are as designed, not synchronised");

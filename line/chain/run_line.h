@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,15 @@ struct Figure {
   std::string section;  ///< of the report: "asked" | "slab" | "sync" | stage name
   std::string title, caption;
 };
+/// How the graphic got its inks.
+struct GraphicUse {
+  std::vector<graphics::Ink> inks;
+  int layers_of_inks = 0, layers_separated = 0;  ///< separated TIFFs that passed through; pictures that were separated
+  std::optional<graphics::ProfileUse> profile;   ///< none: by the inks' solids
+  std::string intent;
+};
+GraphicUse graphic_use(const LineConfig& config, const std::vector<LoadedLayer>& layers);
+
 /// Everything one run made. Big: lives once, in run_line().
 struct LineRun {
   graphics::VeinPlan plan;  ///< design frame
@@ -21,6 +31,7 @@ struct LineRun {
   std::vector<double> layer_shift_m;
   graphics::VeinMap vein_map;
   SyncResult sync;
+  GraphicUse graphic;
   double top_bottom_offset_m = kUnset;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, double>> timing_s;  ///< phase, seconds: run.json only

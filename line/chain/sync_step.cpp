@@ -44,7 +44,8 @@ SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, c
   const int width = vein.width, height = vein.height;
   const double pitch = vein.pitch_m;
   out.nominal.a *= 1 - c.basics.drying_shrinkage;
-  out.print_fraction = print_veins(c, flatten_layers(layers, true));
+  const auto look = flatten_layers(layers, true);
+  out.print_fraction = print_veins(c, look);
 
   sync::Evidence green, print;
   green.value = vein;
@@ -65,6 +66,8 @@ SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, c
     out.zones = sync::score_zones(out.body, out.print_after, c.sync.score, zones);
   }
   out.best = sync::score_masks(out.body, out.print_best, c.sync.score);
+  if (const auto colours = sync::print_colours(look, out.print_fraction))
+    out.visibility = sync::visibility_report(out.body, out.print_before, out.registration.success ? &out.print_after : nullptr, *colours, {}, c.sync.score);
   out.body_edge = sync::edge_widths(vein, sync::centre_links(out.body, c.sync.score.min_width_m));
   out.print_edge =
       sync::edge_widths(out.print_fraction, sync::centre_links(veins_above(out.print_fraction, threshold), c.sync.score.min_width_m));

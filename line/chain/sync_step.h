@@ -6,6 +6,7 @@
 #include "sync/registration/registration.h"
 #include "sync/score/score.h"
 #include "sync/score/shape.h"
+#include "sync/score/visibility.h"
 #include "sync/score/zones.h"
 namespace venato::line {
 
@@ -18,6 +19,7 @@ struct SyncResult {
   std::optional<sync::SlabScore> zones;  ///< of `after`
   std::optional<sync::Metrics> after;  ///< none when the registration failed: then the print stays as designed
   sync::EdgeWidths body_edge, print_edge;  ///< 10-90 % edge widths of the predicted body veins and of the graphic's
+  std::optional<sync::VisibilityReport> visibility;  ///< none for a graphic without veins
   std::vector<sync::ResidualSample> residuals_before, residuals_after, residuals_best;
   MapError error_before{}, error_after{};  ///< against the simulation's own displacement, over the body's vein pixels
 };

@@ -6,6 +6,7 @@
 #include <vector>
 #include "base/config/object_reader.h"
 #include "graphics/graphic.h"
+#include "graphics/icc/separate_by_profile.h"
 #include "graphics/plan/vein_plan.h"
 #include "line/stages/stage_api.h"
 #include "sync/registration/registration.h"
@@ -34,8 +35,10 @@ struct GraphicConfig {
   bool single_image = false;         ///< given as `image`, not as `layers`
   double pitch_m = kUnset;           ///< fired size of one pixel
   double origin_x_m = 0, origin_y_m = 0;
-  std::vector<graphics::Ink> inks;  ///< in the printer's order
-  Rgb8 body_colour{};
+  std::vector<graphics::Ink> inks;  ///< in the printer's order; empty with a profile
+  Rgb8 body_colour{};               ///< with inks
+  std::filesystem::path profile;    ///< ICC output profile of the printer; empty = the inks' solids are used
+  graphics::RenderingIntent profile_intent = graphics::RenderingIntent::perceptual;
   double print_dpi = kUnset;     ///< of masks/print.tif
   double total_ink_limit = 2.4;  ///< sum of ink fractions
   /// A known extra move of the graphic on the print, for trials: content lies at rotate(p - centre) + centre + (dx, dy), print frame.

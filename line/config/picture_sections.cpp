@@ -1,5 +1,8 @@
 #include "line/config/sections.h"
 namespace venato::line {
+namespace {
+constexpr std::size_t kMaxInks = 15;  // of an ICC profile
+}
 
 void read_design(ObjectReader& r, DesignConfig& d) {
   r.path("image", d.image, PathKind::existing_file, {"picture whose veins go through the body (PNG, JPEG, TIFF)"});
@@ -22,15 +25,51 @@ void read_design(ObjectReader& r, DesignConfig& d) {
       false);
 }
 
+/// How the graphic gets its inks: the printer's profile, or the inks' solids (a preview, unless the graphic has inks of its own).
+static void read_inks(ObjectReader& r, GraphicConfig& g) {
+  using graphics::RenderingIntent;
+  r.path("profile", g.profile, PathKind::existing_file, {"ICC output profile of printer, inks and body; instead of `inks` and `body_colour`", ""});
+  r.choice("profile_intent", g.profile_intent,
+           {{"perceptual", RenderingIntent::perceptual},
+            {"relative_colorimetric", RenderingIntent::relative_colorimetric},
+            {"saturation", RenderingIntent::saturation},
+            {"absolute_colorimetric", RenderingIntent::absolute_colorimetric}},
+           {"of the profile: what happens to colours that the inks cannot make", "perceptual"});
+  const bool by_profile = !g.profile.empty();
+  if (r.describing() || r.has("inks"))
+    r.objects("inks", "in the printer's order; instead of `profile`", r.describing() ? 0 : 1, kMaxInks, [&](ObjectReader& o, std::size_t) {
+      graphics::Ink ink;
+      Rgb8 solid{};
+      o.name("name", ink.name, {"InkNames entry and file name part"});
+      o.colour("solid", solid, {"sRGB of a fired 100 % patch on the body", {}, true});
+      ink.solid_srgb = solid;
+      if (!o.describing()) {
+        for (const auto& other : g.inks)
+          if (other.name == ink.name) o.issue("name", "two inks are called '" + ink.name + "'", "every ink needs its own name");
+        g.inks.push_back(ink);
+      }
+    });
+  r.colour("body_colour", g.body_colour, {.help = "sRGB of the fired body without print; needed with `inks`", .optional = true});
+  if (r.describing()) return;
+  if (by_profile && r.has("inks")) r.issue("inks", "has both a profile and inks; the profile has its own", "give exactly one of them");
+  if (by_profile && r.has("body_colour")) r.issue("body_colour", "the profile tells the colour of the body", "remove body_colour");
+  if (!by_profile && !r.has("inks"))
+    r.issue("inks", "colours cannot become inks: neither a profile nor inks with their solids",
+            "give `profile` (the printer's ICC output profile), or `inks` with name and solid = the sRGB of a fired 100 % patch of each, and "
+            "`body_colour`");
+  else if (!by_profile && !r.has("body_colour"))
+    r.issue("body_colour", "is missing: the inks' solids are seen on it", "give the sRGB of the fired body without print");
+}
+
 void read_graphic(ObjectReader& r, GraphicConfig& g) {
   std::filesystem::path image;
-  r.path("image", image, PathKind::existing_file, {"the inkjet graphic as one picture; instead of `layers`", ""});
+  r.path("image", image, PathKind::existing_file, {"the inkjet graphic: an RGB picture, or a separated TIFF of the inks; instead of `layers`", ""});
   std::vector<GraphicLayer> layers;
   if (r.describing() || r.has("layers")) {
     r.objects("layers", "the inkjet graphic as layers, multiplied in this order; instead of `image`", r.describing() ? 0 : 1, 16,
               [&](ObjectReader& o, std::size_t) {
                 GraphicLayer layer;
-                o.path("image", layer.image, PathKind::existing_file, {"picture of this layer"});
+                o.path("image", layer.image, PathKind::existing_file, {"picture of this layer, or its inks (separated TIFF)"});
                 o.boolean("warp", layer.warp, {"true: moves with the veins; false: keeps its place on the print", true});
                 layers.push_back(layer);
               });
@@ -47,19 +86,7 @@ void read_graphic(ObjectReader& r, GraphicConfig& g) {
   r.number("pitch_mm", g.pitch_m, {0.02, 20, "mm"}, {"size of one pixel on the fired slab"});
   r.number("origin_x_mm", g.origin_x_m, {0, 10000, "mm"}, {"first corner of the slab inside the picture", 0.0});
   r.number("origin_y_mm", g.origin_y_m, {0, 10000, "mm"}, {"same, along the belt", 0.0});
-  r.objects("inks", "in the printer's order", 1, 8, [&](ObjectReader& o, std::size_t) {
-    graphics::Ink ink;
-    Rgb8 solid{};
-    o.name("name", ink.name, {"InkNames entry and file name part"});
-    o.colour("solid", solid, {"sRGB of a fired 100 % patch on the body", {}, true});
-    ink.solid_srgb = solid;
-    if (!o.describing()) {
-      for (const auto& other : g.inks)
-        if (other.name == ink.name) o.issue("name", "two inks are called '" + ink.name + "'", "every ink needs its own name");
-      g.inks.push_back(ink);
-    }
-  });
-  r.colour("body_colour", g.body_colour, {"sRGB of the fired body without print"});
+  read_inks(r, g);
   r.number("print_dpi", g.print_dpi, {25, 1200, "dpi", "print heads"}, {"of masks/print.tif", 360.0});
   r.number("total_ink_limit", g.total_ink_limit, {0.5, 8, "1"}, {"largest sum of ink fractions in a pixel", 2.4, true});
   r.object(

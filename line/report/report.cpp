@@ -110,6 +110,7 @@ std::string Page::scores() const {
       {"Matched length", "% of the print's vein length that found its body vein", [](const auto& m) { return fixed(m.matched * 100, 1); }, true},
       {"Body vein without print", "% of the body's vein length", [](const auto& m) { return fixed(m.missing_percent, 1); }, true},
       {"Print without body vein", "% of the print's vein length", [](const auto& m) { return fixed(m.extra_percent, 1); }, true},
+      {"Visibly off from 1 m", "% of the print's vein length; S-CIELAB difference above 2.3", [](const auto& m) { return fixed(m.visible_1m_percent, 1); }, true},
       {"Offset", "mm, signed mean: a constant shift shows here", [](const auto& m) { return fixed(m.offset_mm, 2); }, false},
       {"Centre line, largest", "mm; partners are sought within 15 mm", [](const auto& m) { return fixed(m.max_mm, 2); }, false},
       {"Body vein without print", "mm of centre line", [](const auto& m) { return fixed(m.missing_mm, 0); }, false},

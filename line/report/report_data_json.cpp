@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +26,15 @@ std::string plain(double v) {
   return text;
 }
 
+/// NaN where nothing was looked at: no colours, not registered, best_reachable.
+double visible_percent(const Json& details, const char* which, double distance_m) {
+  const auto v = details.find("visibility");
+  if (v == details.end() || !v->is_object() || !v->contains(which) || !v->at(which).is_array()) return kNone;
+  for (const Json& seen : v->at(which))
+    if (number(seen.at("distance_m")) == distance_m) return number(seen.at("visible_length_percent"));
+  return kNone;
+}
+
 ReportMetrics metrics(const Json& score, const char* which) {
   const Json& m = score.at(which);
   const Json& more = score.at("details").at(which);
@@ -46,7 +57,8 @@ ReportMetrics metrics(const Json& score, const char* which) {
           detail("hd95_mm"),
           detail("area_error_percent"),
           detail("width_error_mm"),
-          detail("direction_coherence")};
+          detail("direction_coherence"),
+          visible_percent(score.at("details"), which, 1)};
 }
 
 std::map<std::string, double> numbers(const Json& object) {
@@ -64,14 +76,30 @@ std::string joined_names(const Json& array, const char* extra = nullptr) {
   return out;
 }
 
-void read_asked(const Json& in, ReportData& d) {
+std::string colours_text(const Json& graphic) {
+  std::string out;
+  if (graphic.at("layers_of_inks").get<int>() > 0) out = "inks of the graphic as they are";
+  if (graphic.at("layers_separated").get<int>() == 0) return out;
+  out += out.empty() ? "" : "; pictures ";
+  const auto& p = graphic.at("profile");
+  if (p.is_null()) return out + "separated by the inks' solids: a preview, not colour managed";
+  char share[40];
+  std::snprintf(share, sizeof share, "%.1f %%", 100 * number(p.at("out_of_gamut_share")));
+  std::string intent = p.at("intent");
+  std::replace(intent.begin(), intent.end(), '_', ' ');
+  return out + "separated by the ICC profile “" + p.at("description").get<std::string>() + "”, " + intent + "; " + share +
+         " of the picture is out of the inks' gamut";
+}
+
+void read_asked(const Json& in, const Json& graphic, ReportData& d) {
   const auto& slab = in.at("slab");
   d.asked = {{"Slab, fired", plain(number(slab.at("fired_width_mm"))) + " × " + plain(number(slab.at("fired_length_mm"))) + " × " +
                                  plain(number(slab.at("fired_thickness_mm"))) + " mm"},
              {"Powders", joined_names(in.at("powders"), "role")},
              {"Belt speed", plain(number(in.at("belt_speed_m_s")) * 60) + " m/min"},
              {"Bed grid", plain(number(in.at("grid").at("pitch_mm"))) + " mm, " + plain(number(in.at("grid").at("layers"))) + " layers"},
-             {"Inks", joined_names(in.at("graphic").at("inks"))},
+             {"Inks", joined_names(graphic.at("inks"))},
+             {"Colours", colours_text(graphic)},
              {"Print", plain(number(in.at("graphic").at("print_dpi"))) + " dpi"},
              {"Polishing depth", plain(number(in.at("vein_map").at("polish_depth_mm"))) + " mm"}};
   std::string chain;
@@ -105,7 +133,7 @@ void read_result(const Json& r, ReportData& d) {
 
 void read_run(const Json& run, ReportData& d) {
   if (run.value("format", "") != "venato-run" || run.value("version", 0) != 1) throw UsageError("format is not venato-run version 1");
-  read_asked(run.at("input"), d);
+  read_asked(run.at("input"), run.at("result").at("graphic"), d);
   read_result(run.at("result"), d);
   const auto& system = run.at("system");
   d.code_version = system.at("code_version");

@@ -149,6 +149,7 @@ SyncInput load_input(const std::filesystem::path& file, std::optional<double> pi
     graphics::Picture loaded = graphics::load_picture(file, pitch_m);
     input.pitch_in_file_m = loaded.pixels.pitch_m;
     input.picture = std::move(loaded.pixels);
+    input.has_colours = true;
   }
   const int factor = factor_to_work_pitch(input.picture.pitch_m);
   if (factor > 1) input.picture = graphics::shrink(input.picture, factor);

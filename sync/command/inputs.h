@@ -18,6 +18,7 @@ struct SyncInput {
   graphics::Raster8 picture;     ///< sRGB or grey; empty for a fraction map
   graphics::Raster8 valid;       ///< 255 where a camera saw the slab, size of fraction and picture; empty: everywhere. No veins where it did not.
   std::optional<graphics::Rectified> camera;  ///< at the camera file's pitch
+  bool has_colours = false;      ///< the picture's are those of the print; false for fractions and inks (whose picture is their sum)
   double pitch_in_file_m = 0;    ///< of the file as loaded
   bool pitch_from_file = false;
   graphics::VeinTone tone = graphics::VeinTone::darker;  ///< how the veins of the picture were found

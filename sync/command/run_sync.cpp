@@ -66,7 +66,7 @@ std::string lying_text(const Lying& l) {
 
 void remove_stale(const std::filesystem::path& out) {
   // Results of an earlier, successful call must not stand beside a failure.
-  for (const char* name : {"score.json", "map.csv", "overlay.png", "misfit.png", "rectified.png"}) {
+  for (const char* name : {"score.json", "map.csv", "overlay.png", "misfit.png", "visibility.png", "rectified.png"}) {
     std::error_code error;
     std::filesystem::remove(out / name, error);
   }
@@ -157,12 +157,16 @@ int run_sync(const SyncOptions& options, Context& context) {
     texts.note = "not registered: " + registration.reason;
   }
 
+  if (graphic.has_colours)
+    if (const auto colours = print_colours(graphic.picture, graphic.fraction))
+      report.visibility = visibility_report(body, before, registration.success ? &after : nullptr, *colours, {}, options.score);
   graphics::write_png(options.out / "overlay.png", overlay_figure(body, before, after, texts));
   if (registration.success) {
     graphics::write_png(options.out / "misfit.png", misfit_figure(body, centreline_residuals(body, after, options.score)));
     write_text_atomically(options.out / "map.csv", map_csv_text(registration.print_from_green, registration.sigma_m, vein_map.fraction.width_m(),
                                                                 vein_map.fraction.height_m()));
   }
+  if (report.visibility && registration.success) graphics::write_png(options.out / "visibility.png", visibility_figure(report.visibility->after));
   write_text_atomically(options.out / "score.json", score_json_text(report, registration));
   if (registration.success) context.log.info(lying_text(how_it_lies(registration.pose_only)));
   context.log.info(registration.success ? "registered; " + texts.note : texts.note);

@@ -5,6 +5,7 @@
 #include "sync/registration/registration.h"
 #include "sync/score/score.h"
 #include "sync/score/shape.h"
+#include "sync/score/visibility.h"
 #include "sync/score/zones.h"
 namespace venato::sync {
 
@@ -21,6 +22,7 @@ struct ScoreReport {
   std::optional<EdgeWidths> body_edge, print_edge;  ///< 10-90 % edge widths, told under "details"
   std::optional<SlabScore> zones;  ///< of `after`: verdicts by zone, told under "verdict" and "details"
   Tolerance tolerance;             ///< that they were judged by
+  std::optional<VisibilityReport> visibility;  ///< under "details"; none when the print's colours are not known
   std::string evidence;  ///< what was compared, under "details"
   std::optional<CameraReport> camera;  ///< told under "details", when the slab was seen by one
 };

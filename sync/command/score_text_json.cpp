@@ -54,6 +54,36 @@ Json edges(const std::optional<EdgeWidths>& e) {
   return {{"median", number(e->median_m * 1e3)}, {"p95", number(e->p95_m * 1e3)}, {"measured_share", number(e->measured)}};
 }
 
+Json seen(const std::vector<Visibility>& list) {
+  if (list.empty()) return nullptr;
+  Json out = Json::array();
+  for (const Visibility& v : list)
+    out.push_back({{"distance_m", number(v.distance_m)},
+                   {"delta_e2000_mean", number(v.delta_e_mean)},
+                   {"delta_e2000_p95", number(v.delta_e_p95)},
+                   {"area_over_1_percent", number(100 * v.area_over_1)},
+                   {"area_over_2_percent", number(100 * v.area_over_2)},
+                   {"visible_length_mm", number(v.visible_length_m() * 1e3)},
+                   {"visible_length_percent", number(v.print_length_m > 0 ? 100 * v.visible_length_m() / v.print_length_m : kNone)},
+                   {"displaced_visible_length_mm", number(v.displaced_length_m * 1e3)},
+                   {"extra_visible_length_mm", number(v.extra_length_m * 1e3)},
+                   {"missing_visible_length_mm", number(v.missing_length_m * 1e3)}});
+  return out;
+}
+Json visibility_json(const std::optional<VisibilityReport>& v) {
+  if (!v) return nullptr;
+  return {{"definition",
+           "S-CIELAB difference of two pictures in the graphic's mean vein and ground colours: veins where the body has them, veins where the print lies. "
+           "Mean and P95 over what either vein covers, areas of the whole slab; visible length: of the print's centre line, where the difference across "
+           "the vein is noticeable and the shift is more than 1 arcmin or the body has no vein there; missing: of body veins without print"},
+          {"vein_srgb", v->colours.vein},
+          {"ground_srgb", v->colours.ground},
+          {"vein_to_ground_delta_e2000", number(v->colours.delta_e)},
+          {"noticeable_delta_e2000", number(v->noticeable_delta_e)},
+          {"before", seen(v->before)},
+          {"after", seen(v->after)}};
+}
+
 Json interval(const Interval& i, double unit) { return Json::array({number(i.low / unit), number(i.high / unit)}); }
 
 Json verdict(const ScoreReport& report) {
@@ -125,6 +155,7 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
   details["after"] = more(report.after);
   details["best_reachable"] = more(report.best_reachable);
   details["edge_width_10_90_mm"] = {{"body", edges(report.body_edge)}, {"print", edges(report.print_edge)}};
+  details["visibility"] = visibility_json(report.visibility);
   details["score_zones"] = Json::array();
   if (report.zones)
     for (const ZoneScore& z : report.zones->zones) details["score_zones"].push_back(zone(z));

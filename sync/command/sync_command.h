@@ -22,8 +22,8 @@ struct SyncOptions {
   ZoneConfig zones;
 };
 
-/// Writes score.json, overlay.png and, when the pictures belong together, map.csv (10 mm grid) and misfit.png into `out`; with a camera
-/// also rectified.png, its picture in the slab's frame.
+/// Writes score.json, overlay.png and, when the pictures belong together, map.csv (10 mm grid), misfit.png and, for a
+/// graphic with colours, visibility.png into `out`; with a camera also rectified.png, its picture in the slab's frame.
 /// \return 0; 1 when they do not belong together: success = false with the reason in score.json, no map.csv
 /// \throws UsageError: missing or broken file, no pitch (says which option gives it), unwritable folder; WorkError: disk full
 int run_sync(const SyncOptions& options, Context& context);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 #include "base/context.h"
@@ -31,11 +32,20 @@ struct PowderMask {
   double feather_m = 0.0006;            ///< width of the soft edge, > 0; at least the mixing width predicted by the line
 };
 
+/// The printer's ICC profile that the inks belong to.
+struct MaskProfile {
+  std::filesystem::path file;  ///< colours of preview.png come from it
+  std::string bytes;           ///< go into print.tif (tag 34675) when 0 is no ink there, as profiles count
+  std::string sha256, intent;
+  graphics::ProfileUse use;
+};
+
 struct MaskJob {
   std::string slab_id, run_id;      ///< told in the sidecar and in ImageDescription; no effect on pixels
-  std::vector<graphics::Ink> inks;  ///< 1..8; names [A-Za-z0-9_-]{1,40}: they become file names
+  std::vector<graphics::Ink> inks;  ///< 1..15; names [A-Za-z0-9_-]{1,40}: they become file names
   std::array<std::uint8_t, 3> body_srgb{};
   bool separated_without_profile = false;
+  std::optional<MaskProfile> profile;  ///< none: preview.png by the inks' solids
   std::vector<InkLayer> layers;      ///< at least one
   Transform print_from_green;        ///< [m]
   Transform pose_from_green;         ///< used by layers with warp = false

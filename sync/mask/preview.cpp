@@ -42,7 +42,7 @@ void PreviewBuilder::add_rows(std::int64_t first_row, std::span<const std::uint8
   rows_added_ += row - first_row;
 }
 
-graphics::Raster8 PreviewBuilder::picture(const std::vector<graphics::Ink>& inks, std::array<std::uint8_t, 3> body_srgb) const {
+graphics::Raster8 PreviewBuilder::amounts() const {
   VENATO_EXPECTS(rows_added_ == height_);
   graphics::Raster8 amounts(out_width_, out_height_, channels_, pitch_m_);
   std::size_t k = 0;
@@ -51,7 +51,7 @@ graphics::Raster8 PreviewBuilder::picture(const std::vector<graphics::Ink>& inks
       const unsigned n = static_cast<unsigned>(samples(i, width_) * samples(j, height_));
       for (int c = 0; c < channels_; ++c, ++k) amounts.data[k] = static_cast<std::uint8_t>((sum_[k] + n / 2) / n);
     }
-  return graphics::predict_srgb(inks, body_srgb, amounts);
+  return amounts;
 }
 
 }  // namespace venato::sync

@@ -16,7 +16,8 @@ class PreviewBuilder {
   /// Rows from `first_row` on, interleaved, 0 = no ink. Any order, any thread: sums of whole numbers do not depend on it. Each row once.
   void add_rows(std::int64_t first_row, std::span<const std::uint8_t> rows);
   /// \pre all rows were added
-  graphics::Raster8 picture(const std::vector<graphics::Ink>& inks, std::array<std::uint8_t, 3> body_srgb) const;
+  /// \return mean ink amounts of each box
+  graphics::Raster8 amounts() const;
 
  private:
   std::int64_t width_, height_, rows_added_ = 0;

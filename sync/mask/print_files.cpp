@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "graphics/icc/separate_by_profile.h"
 #include "sync/mask/file_of_set.h"
 #include "sync/mask/powder_rows.h"
 #include "sync/mask/preview.h"
@@ -146,7 +147,9 @@ void write_print_files(const MaskJob& job, const PreparedLayers& layers, const W
       seal(files[static_cast<std::size_t>(k - 1)].file, folder);
       return;
     }
-    const graphics::Raster8 picture = preview.picture(job.inks, job.body_srgb);
+    const graphics::Raster8 amounts = preview.amounts();
+    const graphics::Raster8 picture = job.profile ? graphics::see_by_profile(amounts, job.profile->file, 1).srgb
+                                                  : graphics::predict_srgb(job.inks, job.body_srgb, amounts);
     graphics::write_png(folder / "preview.png", picture);
     picture_file = about("preview.png", "preview", "sRGB", picture.width, picture.height, 3, kMetresPerInch / picture.pitch_m);
     seal(picture_file, folder);

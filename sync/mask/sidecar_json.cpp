@@ -74,6 +74,12 @@ std::string masks_json_text(const MaskJob& job, const MaskSet& set) {
     out["inks"].push_back({{"order", k}, {"name", job.inks[k].name}, {"solid_srgb", hex_colour(job.inks[k].solid_srgb)}});
   out["body_srgb"] = hex_colour(job.body_srgb);
   if (job.separated_without_profile) out["colour_note"] = "separated without a printer profile: colours are a preview, geometry is exact";
+  if (job.profile)
+    out["profile"] = {{"description", job.profile->use.description},
+                      {"file", job.profile->file.filename().string()},
+                      {"sha256", job.profile->sha256},
+                      {"intent", job.profile->intent},
+                      {"out_of_gamut_share", job.profile->use.out_of_gamut_share}};
   out["layers"] = Json::array();
   for (const InkLayer& layer : job.layers)
     out["layers"].push_back({{"name", layer.name},

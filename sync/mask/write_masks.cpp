@@ -61,6 +61,8 @@ MaskSet write_masks(const MaskJob& job, const std::filesystem::path& folder, Con
   print_info.kind = TiffKind::separated;
   print_info.channels = static_cast<int>(job.inks.size());
   for (const auto& ink : job.inks) print_info.ink_names.push_back(ink.name);
+  // A profile counts 0 as no ink; readers would apply it to the samples as they stand.
+  if (job.profile && job.print_polarity == Polarity::zero_is_no_ink) print_info.icc_profile = job.profile->bytes;
   print_info.no_ink_value = job.print_polarity == Polarity::zero_is_no_ink ? 0 : 255;
 
   StagedFolder staged(folder);

@@ -3,6 +3,7 @@
 #include <vector>
 #include "graphics/raster/raster.h"
 #include "sync/score/score.h"
+#include "sync/score/visibility.h"
 namespace venato::sync {
 
 /// Body veins sky blue, print veins orange, where both lie dark; on the body's off-white. One RGB pixel per mask pixel, nothing written on it
@@ -23,4 +24,8 @@ graphics::Raster8 overlay_figure(const graphics::Raster8& body, const graphics::
 /// without partner in magenta, over the body veins in grey.
 graphics::Raster8 misfit_figure(const graphics::Raster8& body, const std::vector<ResidualSample>& samples, double limit_m = 0.005,
                                 const std::string& title = "distance of print centre line to body vein");
+
+/// The maps of `seen` side by side, one per viewing distance, 0 to limit (colour bar; more takes the last colour). Shrunk pictures show the largest
+/// difference of each of their pixels: thin misfits stay visible.
+graphics::Raster8 visibility_figure(const std::vector<Visibility>& seen, double limit_delta_e = 10);
 }  // namespace venato::sync

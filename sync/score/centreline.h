@@ -19,6 +19,8 @@ struct NormalResidual {
   Point at_m;
   double signed_distance_m = 0, length_m = 0;
   bool matched = false;
+  Point normal = Point::UnitX();  ///< of the line there, towards +x (+y for lines along x): what the distance is along
+  double width_m = 0;             ///< of the line's vein there
 };
 std::vector<NormalResidual> normal_residuals(const std::vector<CentreLink>& lines, const std::vector<CentreLink>& partners,
                                              const ScoreConfig& config);

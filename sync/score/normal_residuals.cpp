@@ -61,6 +61,7 @@ std::vector<NormalResidual> normal_residuals(const std::vector<CentreLink>& line
       NormalResidual r;
       r.at_m = line.from_m + along * ((k + 0.5) / samples);
       r.length_m = line.length_m / samples;
+      r.normal = normal, r.width_m = line.width_m;
       double best = std::numeric_limits<double>::infinity();
       grid.visit(r.at_m - config.search_m * normal, r.at_m + config.search_m * normal, [&](const std::vector<int>& cell) {
         for (const int index : cell) {

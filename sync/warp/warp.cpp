@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "graphics/raster/resample.h"
 #include "sync/warp/bilinear.h"
@@ -65,7 +66,7 @@ void warp_run(const graphics::Raster8& source, const std::int32_t* qx, const std
     }
     tap.upper = data + y * stride + x * N;
 #if defined(__SSE2__)
-    if (data_end - tap.upper >= tap.down + tap.right + detail::kVectorBytes && row_end - out >= detail::kVectorBytes) {
+    if (N <= detail::kVectorBytes && data_end - tap.upper >= tap.down + tap.right + detail::kVectorBytes && row_end - out >= detail::kVectorBytes) {
       detail::blend_sse2(tap, out);
       continue;
     }
@@ -90,8 +91,11 @@ void warp_row(const graphics::Raster8& source, const Transform& source_from_gree
 }
 
 using WarpRow = void (*)(const graphics::Raster8&, const Transform&, const WarpGrid&, std::int64_t, std::uint8_t*, std::uint8_t);
-constexpr std::array<WarpRow, kMaxWarpChannels> kWarpRow = {warp_row<1>, warp_row<2>, warp_row<3>, warp_row<4>,
-                                                            warp_row<5>, warp_row<6>, warp_row<7>, warp_row<8>};
+template <int... N>
+constexpr std::array<WarpRow, sizeof...(N)> warp_row_table(std::integer_sequence<int, N...>) {
+  return {warp_row<N + 1>...};
+}
+constexpr auto kWarpRow = warp_row_table(std::make_integer_sequence<int, kMaxWarpChannels>{});
 
 }  // namespace
 

@@ -12,10 +12,10 @@ struct WarpGrid {
   double pitch_m = 0;
 };
 
-inline constexpr int kMaxWarpChannels = 8;
+inline constexpr int kMaxWarpChannels = 15;  ///< as many as an ICC profile has inks
 
 /// Rows [first_row, first_row + rows) of   out(p) = source(source_from_green(p)),   all channels at once, bilinear.
-/// \param source  8 bit, interleaved, 1..8 channels, own pitch, at most 100 000 px per side; contone (never warp screened data)
+/// \param source  8 bit, interleaved, 1..15 channels (up to 8 in vector code), own pitch, at most 100 000 px per side; contone (never warp screened data)
 /// \param source_from_green  [m] -> [m]; its B-spline is a cubic of x between knots, so every row is evaluated exactly (to rounding), without maps
 /// \param out     rows * grid.width * channels bytes
 /// \param outside value where the source has nothing; up to 1 source pixel beyond its border the border's own value is used

@@ -154,5 +154,23 @@ TEST_F(ByProfile, RefusesDamagedFiles) {
   test::spill(file, std::string(good).replace(table, 4, "????"));
   expect_refused("is a damaged ICC profile");
 }
+
+TEST_F(ByProfile, InksOfTheirOwnAreSeenThroughTheForwardTableAndStayAsTheyAre) {
+  test::write_synthetic_profile(file);
+  Raster8 ink(4, 1, 6, 1e-3);
+  ink.data = {0, 0, 0, 0, 0, 0, 255, 0, 0, 255, 0, 0, 0, 128, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255};
+  const Graphic g = see_by_profile(ink, file, 2);
+  EXPECT_EQ(g.ink.data, ink.data);
+  const ProfileInks own = read_profile_inks(file);
+  EXPECT_EQ(own.inks.size(), 6u);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(g.srgb.data[c], own.body_srgb[c]) << "no ink is the body";
+    const auto light = [&](double amount) { return linear_to_srgb(test::kBodyLight * (1 - test::kDepth * amount)); };
+    EXPECT_NEAR(g.srgb.data[3 + c], light(c == 0 ? 1 : 0), 2) << "both inks of red";
+    EXPECT_NEAR(g.srgb.data[6 + c], light(c == 1 ? 128 / 255.0 / 2 : 0), 2) << "half of one of the two inks of green";
+    EXPECT_NEAR(g.srgb.data[9 + c], light(1), 2);
+  }
+  test::expect_usage_error([&] { see_by_profile(Raster8(2, 2, 5, 1e-3), file, 1); }, file, "profile of 6 inks; the graphic has 5");
+}
 }  // namespace
 }  // namespace venato::graphics

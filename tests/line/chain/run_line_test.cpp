@@ -50,12 +50,15 @@ TEST(RunLine, FolderHoldsWhatTheContractSays) {
   const auto outcome = t.run("out", 2);
   for (const char* file : {"run.json", "run.h5", "score.json", "report.html", "vein_map.tif", "masks/print.tif", "masks/print_black.tif",
                            "masks/powder_grey.tif", "masks/powder_white.tif", "masks/feed_vein_grey.csv", "masks/feed_vein_grey.tif",
-                           "masks/masks.json", "masks/preview.png", "figures/overlay_after.png"})
+                           "masks/masks.json", "masks/preview.png", "figures/overlay_after.png", "figures/visibility.png"})
     EXPECT_TRUE(std::filesystem::exists(t.folder / "out" / file)) << file;
   for (const auto& entry : std::filesystem::directory_iterator(t.folder / "out"))
     EXPECT_EQ(entry.path().filename().string().find("partial"), std::string::npos);
 
   const auto score = t.json("out/score.json");
+  EXPECT_EQ(score.at("details").at("visibility").at("before").size(), 3u);  // 0.5, 1 and 2 m
+  EXPECT_NE(read_file(t.folder / "out/report.html").find("Visibly off from 1 m"), std::string::npos);
+  EXPECT_GT(score.at("details").at("visibility").at("vein_to_ground_delta_e2000").get<double>(), 1);
   ASSERT_TRUE(outcome.registered) << outcome.reason;
   EXPECT_TRUE(score.at("registration").at("success"));
   const auto median = [&](const char* which) { return score.at(which).at("centreline_error_mm").at("median").get<double>(); };

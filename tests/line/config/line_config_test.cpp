@@ -116,5 +116,23 @@ TEST(LineConfig, DescribesAndHasASchema) {
     EXPECT_NE(text.find(key), std::string::npos) << key;
   EXPECT_NE(config_json_schema(root, "venato-line").find("2020-12"), std::string::npos);
 }
+
+TEST(LineConfig, InksComeFromAProfileOrFromTheirSolidsButNotFromNothing) {
+  const std::string graphic = std::string(R"({"image":")") + VENATO_SOURCE_DIR + R"(/configs/images/pov_calacatta_1600x3200.jpg","pitch_mm":1)";
+  const std::string profile = std::string(R"(,"profile":")") + VENATO_SOURCE_DIR + R"(/configs/images/pov_calacatta_1600x3200.jpg")";  // any file: not read here
+  const std::string inks = R"(,"inks":[{"name":"black","solid":"#202020"}])", body = R"(,"body_colour":"#f0f0f0")";
+  const auto with = [&](const std::string& more) { return std::vector<Override>{{"/graphic", graphic + more + "}"}}; };
+  const auto none = refused(fake::config_text(), with(""));
+  EXPECT_NE(none.find("/graphic/inks: colours cannot become inks"), std::string::npos) << none;
+  EXPECT_NE(none.find("ICC output profile"), std::string::npos) << "tells what to supply";
+  EXPECT_NE(refused(fake::config_text(), with(inks)).find("/graphic/body_colour is missing"), std::string::npos);
+  EXPECT_NE(refused(fake::config_text(), with(profile + inks + body)).find("has both a profile and inks"), std::string::npos);
+  EXPECT_NE(refused(fake::config_text(), with(profile + body)).find("the profile tells the colour of the body"), std::string::npos);
+  const auto c = load(fake::config_text(), with(profile + R"(,"profile_intent":"saturation")"));
+  EXPECT_EQ(c.graphic.profile_intent, graphics::RenderingIntent::saturation);
+  EXPECT_TRUE(c.graphic.inks.empty());
+  EXPECT_FALSE(load_line_config_text(c.resolved_json, "/", {}, fake::stages()).graphic.profile.empty()) << "what a run writes can be read again";
+  EXPECT_EQ(load(fake::config_text(), with(inks + body)).graphic.body_colour[0], 0xf0);
+}
 }  // namespace
 }  // namespace venato::line

@@ -10,7 +10,16 @@ TEST(RunSync, FractionMapOfARunAndItsGraphic) {
   c.write_planned_fractions(5);
   c.write_graphic(5);
   expect_registered(c);
-  EXPECT_EQ(c.score().at("details").at("evidence"), "vein fraction against planned veins");
+  const json details = c.score().at("details");
+  EXPECT_EQ(details.at("evidence"), "vein fraction against planned veins");
+  const json &before = details.at("visibility").at("before"), &after = details.at("visibility").at("after");
+  ASSERT_EQ(after.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {  // unsynchronised, the eye sees all of it; a fit of some tenths of a millimetre leaves little
+    EXPECT_GT(before[k].at("visible_length_percent").get<double>(), 80);
+    EXPECT_LT(after[k].at("delta_e2000_mean").get<double>(), before[k].at("delta_e2000_mean").get<double>() / 3);
+    EXPECT_LT(after[k].at("visible_length_percent").get<double>(), before[k].at("visible_length_percent").get<double>());
+  }
+  EXPECT_TRUE(fs::exists(c.options.out / "visibility.png"));
 }
 
 TEST(RunSync, PicturesThatDoNotBelongTogetherFailHonestly) {

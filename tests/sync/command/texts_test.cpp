@@ -26,6 +26,11 @@ TEST(ScoreText, ConvertsToMillimetresAndWritesNullForNothing) {
   m.centreline_median_m = std::numeric_limits<double>::quiet_NaN();
   m.centreline_p95_m = std::numeric_limits<double>::infinity();
   report.after = m;
+  report.visibility = VisibilityReport{{{10, 20, 30}, {200, 190, 180}, 40.5}, 2.3, {}, {}};
+  Visibility seen;
+  seen.distance_m = 0.5, seen.delta_e_mean = 3.5, seen.delta_e_p95 = std::numeric_limits<double>::quiet_NaN(), seen.area_over_1 = 0.25, seen.area_over_2 = 0.125;
+  seen.displaced_length_m = 0.2, seen.extra_length_m = 0.05, seen.missing_length_m = 0.01, seen.print_length_m = 1;
+  report.visibility->before.push_back(seen);
   report.body_edge = EdgeWidths{0.0042, 0.009, 0.8};
   Registration registration;
   registration.success = false;
@@ -48,6 +53,19 @@ TEST(ScoreText, ConvertsToMillimetresAndWritesNullForNothing) {
   EXPECT_EQ(j.at("registration"), (json{{"success", false}, {"reason", "T2: \"peak\" 1.2 < 1.6"}, {"confidence", 0.25}}));
   EXPECT_NEAR(j.at("details").at("edge_width_10_90_mm").at("body").at("median").get<double>(), 4.2, 1e-9);
   EXPECT_TRUE(j.at("details").at("edge_width_10_90_mm").at("print").is_null());
+  const json& visibility = j.at("details").at("visibility");
+  EXPECT_EQ(visibility.at("vein_srgb"), (json{10, 20, 30}));
+  EXPECT_TRUE(visibility.at("after").is_null());
+  const json& v = visibility.at("before").at(0);
+  EXPECT_EQ(v.at("distance_m"), 0.5);
+  EXPECT_TRUE(v.at("delta_e2000_p95").is_null());
+  EXPECT_EQ(v.at("area_over_1_percent"), 25);
+  EXPECT_EQ(v.at("area_over_2_percent"), 12.5);
+  EXPECT_EQ(v.at("visible_length_mm"), 250);
+  EXPECT_EQ(v.at("visible_length_percent"), 25);
+  EXPECT_EQ(v.at("missing_visible_length_mm"), 10);
+  report.visibility.reset();
+  EXPECT_TRUE(json::parse(score_json_text(report, registration)).at("details").at("visibility").is_null());
   EXPECT_EQ(j.at("details").at("gates")[0].at("name"), "T2");
 }
 

@@ -93,6 +93,24 @@ TEST(Score, TwoPixelsTwoApart) {  // google-deepmind/surface-distance: ASD 1.5 w
   EXPECT_NEAR(m.boundary_f1_2mm, 1, 0);
 }
 
+/// The corners of skimage's diamond and kite (metrics/tests/test_set_metrics.py): Hausdorff exactly 10, one way 5 at the sides.
+TEST(Distance, DiamondAndKiteAreTenApart) {
+  Raster8 diamond(60, 60, 1, 1), kite(60, 60, 1, 1);
+  for (const auto& [x, y] : {std::pair(0, 1), std::pair(1, 0), std::pair(0, -1), std::pair(-1, 0)}) {
+    diamond.at(30 + 10 * x, 30 + 10 * y) = 255;
+    kite.at(30 + 15 * x, 30 + 20 * y) = 255;
+  }
+  const auto furthest = [](const Raster8& from, const Raster8& to) {
+    const RasterF d = distance_to(to);
+    float most = 0;
+    for (std::size_t k = 0; k < from.data.size(); ++k)
+      if (from.data[k]) most = std::max(most, d.data[k]);
+    return most;
+  };
+  EXPECT_EQ(std::max(furthest(diamond, kite), furthest(kite, diamond)), 10);
+  EXPECT_EQ(distance_to(diamond).at(45, 30), 5);
+}
+
 TEST(Distance, AgreesWithBruteForce) {
   Raster8 set(37, 23, 1, 1.0);
   for (int k = 0; k < 12; ++k) set.at((k * 17 + 5) % 37, (k * k * 7 + 3) % 23) = 1;
