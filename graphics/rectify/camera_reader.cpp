@@ -20,7 +20,8 @@ void read_lens(ObjectReader& r, Lens& lens) {
 
 void read_mark(ObjectReader& r, CameraView& view) {
   std::vector<double> px, m;
-  r.numbers("px", px, {-1, 1e6, "px"}, 2, 2, {.help = "where the mark is in the picture as taken: across, down; centre of the top-left pixel = 0, 0"});
+  r.numbers("px", px, {-1, 1e6, "px"}, 2, 2,
+            {.help = "where the mark is in the picture as taken: across, down; centre of the top-left pixel = 0, 0"});
   r.numbers("mm", m, {-1000, 11000, "mm"}, 2, 2, {.help = "where it is on the slab: from its left edge, from its top edge"});
   if (px.size() == 2 && m.size() == 2) view.marks.push_back({{px[0], px[1]}, {m[0], m[1]}});
 }

@@ -14,8 +14,7 @@ Eigen::Vector2d bend(const Lens& l, const Eigen::Vector2d& n, Eigen::Matrix2d* s
   const double radial = 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3)), d_radial = l.k1 + r2 * (2 * l.k2 + 3 * r2 * l.k3);  // d/d(r2)
   if (slope) {
     const double cross = 2 * x * y * d_radial + 2 * l.p1 * x + 2 * l.p2 * y;
-    *slope << radial + 2 * x * x * d_radial + 2 * l.p1 * y + 6 * l.p2 * x, cross, cross,
-        radial + 2 * y * y * d_radial + 6 * l.p1 * y + 2 * l.p2 * x;
+    *slope << radial + 2 * x * x * d_radial + 2 * l.p1 * y + 6 * l.p2 * x, cross, cross, radial + 2 * y * y * d_radial + 6 * l.p1 * y + 2 * l.p2 * x;
   }
   return {x * radial + 2 * l.p1 * x * y + l.p2 * (r2 + 2 * x * x), y * radial + l.p1 * (r2 + 2 * y * y) + 2 * l.p2 * x * y};
 }

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 namespace venato::graphics {
 
-/// Distortion of a lens after Brown and Conrady, as OpenCV's calibrateCamera gives it. Pixel positions have the centre of the top-left pixel at (0, 0).
-/// Source: D. C. Brown, Photogramm. Eng. 32 (1966) 444; names and signs as in OpenCV's calib3d.
+/// Distortion of a lens after Brown and Conrady, as OpenCV's calibrateCamera gives it. Pixel positions have the centre of the top-left pixel at (0,
+/// 0). Source: D. C. Brown, Photogramm. Eng. 32 (1966) 444; names and signs as in OpenCV's calib3d.
 struct Lens {
   double fx_px = 1, fy_px = 1, cx_px = 0, cy_px = 0;  ///< focal lengths and principal point
   double k1 = 0, k2 = 0, k3 = 0;                      ///< radial: 1 + k1 r2 + k2 r4 + k3 r6

@@ -12,11 +12,13 @@ constexpr double kLeastVisible = 0.1;  // what registration asks for
 /// Adds the bilinear value at (x, y), pixel centres at whole numbers; false outside the outer pixel centres.
 bool add_sample(const Raster8& camera, const Eigen::Vector2d& at, double* sum) {
   if (!(at.x() >= 0 && at.y() >= 0 && at.x() <= camera.width - 1 && at.y() <= camera.height - 1)) return false;
-  const int i = std::min(static_cast<int>(at.x()), std::max(0, camera.width - 2)), j = std::min(static_cast<int>(at.y()), std::max(0, camera.height - 2));
+  const int i = std::min(static_cast<int>(at.x()), std::max(0, camera.width - 2)),
+            j = std::min(static_cast<int>(at.y()), std::max(0, camera.height - 2));
   const int right = std::min(i + 1, camera.width - 1), below = std::min(j + 1, camera.height - 1);
   const double u = at.x() - i, v = at.y() - j;
   for (int c = 0; c < camera.channels; ++c)
-    sum[c] += (1 - v) * ((1 - u) * camera.at(i, j, c) + u * camera.at(right, j, c)) + v * ((1 - u) * camera.at(i, below, c) + u * camera.at(right, below, c));
+    sum[c] += (1 - v) * ((1 - u) * camera.at(i, j, c) + u * camera.at(right, j, c)) +
+              v * ((1 - u) * camera.at(i, below, c) + u * camera.at(right, below, c));
   return true;
 }
 }  // namespace

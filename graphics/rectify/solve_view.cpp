@@ -84,8 +84,9 @@ void measure_marks(const CameraView& view, SolvedView& out) {
   std::nth_element(miss.begin(), miss.begin() + static_cast<std::ptrdiff_t>(miss.size() / 2), miss.end());
   out.mark_median_m = miss[miss.size() / 2];
   if (!(out.mark_max_m <= view.mark_limit_m))
-    refuse(view, mark_name(worst) + ": is " + text("%.3g mm off the fit of all %.0f marks (mark_limit_mm %.3g; median %.3g mm)", out.mark_max_m * 1e3,
-                                                   out.marks, view.mark_limit_m * 1e3, out.mark_median_m * 1e3) +
+    refuse(view, mark_name(worst) + ": is " +
+                     text("%.3g mm off the fit of all %.0f marks (mark_limit_mm %.3g; median %.3g mm)", out.mark_max_m * 1e3, out.marks,
+                          view.mark_limit_m * 1e3, out.mark_median_m * 1e3) +
                      ": a wrong mark, or the lens needs its distortion");
 }
 
@@ -102,15 +103,17 @@ void check_sight(const CameraView& view, SolvedView& out) {
     }
   if (nearest < 0 && farthest < 0) std::swap(nearest *= -1, farthest *= -1);  // a homography's sign is free
   if (!(nearest > kHorizonShare * farthest))
-    refuse(view, std::string(what) + (nearest > 0 ? ": the slab's far end would be ten times as far from the camera as its near end"
-                                                  : ": the horizon of the picture would cross the slab") +
+    refuse(view, std::string(what) +
+                     (nearest > 0 ? ": the slab's far end would be ten times as far from the camera as its near end"
+                                  : ": the horizon of the picture would cross the slab") +
                      "; are marks in the wrong order?");
   double finest = HUGE_VAL, coarsest = 0;
   for (const Eigen::Vector2d& p : slab_grid(view)) {
     const Eigen::Matrix2d slope = project_slope(h, p);
     if (!(slope.determinant() > 0))
-      refuse(view, std::string(what) + ": the picture would be a mirror image of the slab; are two marks swapped? (A picture taken in a mirror has to be "
-                                       "flipped first.)");
+      refuse(view, std::string(what) +
+                       ": the picture would be a mirror image of the slab; are two marks swapped? (A picture taken in a mirror has to be "
+                       "flipped first.)");
     const Eigen::Vector2d stretch = Eigen::JacobiSVD<Eigen::Matrix2d>(slope).singularValues();
     finest = std::min(finest, 1 / stretch[0]);
     coarsest = std::max(coarsest, 1 / stretch[1]);

@@ -18,8 +18,8 @@ struct SyncInput {
   graphics::Raster8 picture;     ///< sRGB or grey; empty for a fraction map
   graphics::Raster8 valid;       ///< 255 where a camera saw the slab, size of fraction and picture; empty: everywhere. No veins where it did not.
   std::optional<graphics::Rectified> camera;  ///< at the camera file's pitch
-  bool has_colours = false;      ///< the picture's are those of the print; false for fractions and inks (whose picture is their sum)
-  double pitch_in_file_m = 0;    ///< of the file as loaded
+  bool has_colours = false;                   ///< the picture's are those of the print; false for fractions and inks (whose picture is their sum)
+  double pitch_in_file_m = 0;                 ///< of the file as loaded
   bool pitch_from_file = false;
   graphics::VeinTone tone = graphics::VeinTone::darker;  ///< how the veins of the picture were found
 };
@@ -28,8 +28,8 @@ struct SyncInput {
 /// \throws UsageError naming file and reason
 SyncInput load_input(const std::filesystem::path& file, std::optional<double> pitch_m, const std::string& pitch_option,
                      const graphics::VeinPlanConfig& plan, bool tone_given);
-/// A camera's picture of the slab, brought into the slab's frame by its camera file. \throws UsageError: rectify()'s reasons, and for fraction maps and
-/// separated TIFFs, which no camera takes
+/// A camera's picture of the slab, brought into the slab's frame by its camera file. \throws UsageError: rectify()'s reasons, and for fraction maps
+/// and separated TIFFs, which no camera takes
 SyncInput load_camera_input(const std::filesystem::path& file, const std::filesystem::path& camera, const graphics::VeinPlanConfig& plan,
                             bool tone_given, int threads);
 

@@ -85,8 +85,7 @@ std::optional<Metrics> noise_floor(const EvidencePair& evidence, const graphics:
   keep_seen(copy.valid, evidence.green.valid, green_from_copy);
   const Registration back = register_veins(evidence.green, copy, config, std::nullopt, context);
   if (!back.success) return std::nullopt;
-  graphics::Raster8 print =
-      mask_on_green(copy_fraction, back.print_from_green, body_fraction.width, body_fraction.height, body_fraction.pitch_m);
+  graphics::Raster8 print = mask_on_green(copy_fraction, back.print_from_green, body_fraction.width, body_fraction.height, body_fraction.pitch_m);
   keep_valid(print, evidence.green.valid);
   return score_masks(vein_mask(body_fraction), print, score);
 }

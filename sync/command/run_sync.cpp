@@ -24,7 +24,10 @@ void tell_input(const char* what, const SyncInput& input, Log& log) {
   char text[200];
   const auto& raster = input.fraction;
   std::snprintf(text, sizeof text, ": %.4f mm/px (%s), %.0f x %.0f mm, veins on %.1f %%", input.pitch_in_file_m * 1e3,
-                input.camera ? "rectified" : input.pitch_from_file ? "from the file" : "given", raster.width_m() * 1e3, raster.height_m() * 1e3, 100 * vein_share(raster, input.valid));
+                input.camera            ? "rectified"
+                : input.pitch_from_file ? "from the file"
+                                        : "given",
+                raster.width_m() * 1e3, raster.height_m() * 1e3, 100 * vein_share(raster, input.valid));
   log.info(std::string(what) + text + (input.is_fraction_map ? " (fractions)" : std::string(" (") + tone_text(input.tone) + " than the body)"));
 }
 
@@ -36,7 +39,8 @@ void tell_camera(const SyncInput& input, Log& log) {
                 100 * input.camera->visible);
   std::string all = text;
   if (view.marks > 4) {
-    std::snprintf(text, sizeof text, "; %d marks, residual median %.3f mm, largest %.3f mm", view.marks, view.mark_median_m * 1e3, view.mark_max_m * 1e3);
+    std::snprintf(text, sizeof text, "; %d marks, residual median %.3f mm, largest %.3f mm", view.marks, view.mark_median_m * 1e3,
+                  view.mark_max_m * 1e3);
     all += text;
   } else if (view.marks == 4) {
     all += "; four marks leave no residual: a wrong one is not noticed, five or more are";
@@ -59,8 +63,9 @@ std::string error_text(const Metrics& m) {
 
 std::string lying_text(const Lying& l) {
   char text[160];
-  std::snprintf(text, sizeof text, "the graphic lies turned by %d deg%s and %.2f deg more; the slab's top-left corner at %.1f, %.1f mm of the graphic",
-                l.turn_deg, l.mirrored ? ", mirrored," : "", l.rotation_rad * 180 / M_PI, l.corner_m.x() * 1e3, l.corner_m.y() * 1e3);
+  std::snprintf(text, sizeof text,
+                "the graphic lies turned by %d deg%s and %.2f deg more; the slab's top-left corner at %.1f, %.1f mm of the graphic", l.turn_deg,
+                l.mirrored ? ", mirrored," : "", l.rotation_rad * 180 / M_PI, l.corner_m.x() * 1e3, l.corner_m.y() * 1e3);
   return text;
 }
 
@@ -124,7 +129,7 @@ int run_sync(const SyncOptions& options, Context& context) {
     registration.reason = reason;
   }
   const graphics::Raster8 body = vein_mask(vein_map.fraction);
-  const auto print_on_green = [&](const Transform& map) { 
+  const auto print_on_green = [&](const Transform& map) {
     graphics::Raster8 print = mask_on_green(graphic.fraction, map, body.width, body.height, body.pitch_m);
     keep_valid(print, vein_map.valid);  // what the camera did not see is neither right nor wrong
     return print;

@@ -10,9 +10,9 @@ namespace venato::sync {
 
 /// `venato sync`: any two pictures of which one should be printed on the other.
 struct SyncOptions {
-  std::filesystem::path vein_map;                       ///< vein_map.tif of a run (float fractions, first channel = body), or a picture of a slab
-  std::filesystem::path camera;                         ///< camera file (graphics/rectify): vein_map is its picture; empty: vein_map lies in the slab's frame
-  std::filesystem::path graphic;                        ///< PNG, JPEG or TIFF picture, or an N-ink separated TIFF
+  std::filesystem::path vein_map;  ///< vein_map.tif of a run (float fractions, first channel = body), or a picture of a slab
+  std::filesystem::path camera;    ///< camera file (graphics/rectify): vein_map is its picture; empty: vein_map lies in the slab's frame
+  std::filesystem::path graphic;   ///< PNG, JPEG or TIFF picture, or an N-ink separated TIFF
   std::optional<double> vein_pitch_m, graphic_pitch_m;  ///< absent: the file's own dpi
   std::filesystem::path out;                            ///< folder
   RegistrationConfig registration;

@@ -146,13 +146,13 @@ TEST(ReadCamera, RoundTripAndMistakes) {
   ASSERT_EQ(v.marks.size(), 4u);
   EXPECT_LT((v.marks[2].picture_px - camera.view().marks[2].picture_px).norm(), 1e-12);
   EXPECT_EQ(v.lens->p2, camera.lens.p2);
-  for (const Hostile& h : {Hostile{"pitch_mm", "pich_mm", "did you mean 'pitch_mm'"}, Hostile{"\"marks\"", "\"mark\"", "four marks or more"},
-                           Hostile{"[400,600]", "[400,NaN]", "line 1"}, Hostile{"[400,600]", "[400,1e300]", "/slab_mm/1"},
-                           Hostile{"[400,600]", "[400]", "/slab_mm"}, Hostile{"\"k1\":", "\"k1\":1e999,\"k7\":", "k1"},
-                           Hostile{"\"fx_px\":2600", "\"fx_px\":0", "/lens/fx_px"}, Hostile{"\"marks\":[", "\"marks\":[[],", "/marks/0"},
-                           Hostile{"\"version\":1", "\"version\":2", "/version"},
-                           Hostile{"\"marks\"", "\"mm_from_px\":[1,0,0,0,1,0,0,0,1],\"marks\"", "both given"},
-                           Hostile{"[400,600],\"pitch_mm\":0.5", "[10000,10000],\"pitch_mm\":0.05", "2.5e8 px"}}) {
+  for (const Hostile& h :
+       {Hostile{"pitch_mm", "pich_mm", "did you mean 'pitch_mm'"}, Hostile{"\"marks\"", "\"mark\"", "four marks or more"},
+        Hostile{"[400,600]", "[400,NaN]", "line 1"}, Hostile{"[400,600]", "[400,1e300]", "/slab_mm/1"}, Hostile{"[400,600]", "[400]", "/slab_mm"},
+        Hostile{"\"k1\":", "\"k1\":1e999,\"k7\":", "k1"}, Hostile{"\"fx_px\":2600", "\"fx_px\":0", "/lens/fx_px"},
+        Hostile{"\"marks\":[", "\"marks\":[[],", "/marks/0"}, Hostile{"\"version\":1", "\"version\":2", "/version"},
+        Hostile{"\"marks\"", "\"mm_from_px\":[1,0,0,0,1,0,0,0,1],\"marks\"", "both given"},
+        Hostile{"[400,600],\"pitch_mm\":0.5", "[10000,10000],\"pitch_mm\":0.05", "2.5e8 px"}}) {
     std::string bad = good;
     const auto at = bad.find(h.from);
     ASSERT_NE(at, std::string::npos) << h.from;

@@ -24,7 +24,8 @@ graphics::Raster8 photographed(const Pinhole& camera, const VeinField& field, co
       const bool on = slab.x() > 0 && slab.y() > 0 && slab.x() < kWidth_m && slab.y() < kHeight_m;
       const double r = std::hypot(i - camera.width_px / 2.0, j - camera.height_px / 2.0) / half;
       const double light = (1 - fall_off * i / camera.width_px) * (1 - fall_off * r * r);
-      const auto gx = static_cast<std::uint64_t>(std::floor(slab.x() / kGrain_m) + 100000), gy = static_cast<std::uint64_t>(std::floor(slab.y() / kGrain_m) + 100000);
+      const auto gx = static_cast<std::uint64_t>(std::floor(slab.x() / kGrain_m) + 100000),
+                 gy = static_cast<std::uint64_t>(std::floor(slab.y() / kGrain_m) + 100000);
       Rng rng(gx * 1000003 + gy, stream_id("test/camera/grain"));
       const double grain = 1 + speckle * rng.normal(), f = on ? field.fraction(truth(slab)) : 0;
       const double body[] = {238, 235, 228}, vein[] = {120, 112, 104}, belt[] = {40, 45, 40};
@@ -76,7 +77,8 @@ TEST(SyncCamera, TiltedCameraUnevenLightAndSpeckle) {
   EXPECT_LT(std::abs(score.at("details").at("after").at("area_error_percent").get<double>()), 10);
   EXPECT_GT(score.at("after").at("matched_length").get<double>(), 0.95);
   EXPECT_TRUE(fs::exists(c.options.out / "rectified.png"));
-  if (const char* keep = std::getenv("VENATO_TEST_KEEP")) fs::copy(c.options.out, keep, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  if (const char* keep = std::getenv("VENATO_TEST_KEEP"))
+    fs::copy(c.options.out, keep, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 
   // Negative control: without the lens the map is worse by what the lens bends.
   c.view.lens.reset();
