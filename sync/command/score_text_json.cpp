@@ -72,16 +72,18 @@ Json seen(const std::vector<Visibility>& list) {
 }
 Json visibility_json(const std::optional<VisibilityReport>& v) {
   if (!v) return nullptr;
-  return {{"definition",
-           "S-CIELAB difference of two pictures in the graphic's mean vein and ground colours: veins where the body has them, veins where the print lies. "
-           "Mean and P95 over what either vein covers, areas of the whole slab; visible length: of the print's centre line, where the difference across "
-           "the vein is noticeable and the shift is more than 1 arcmin or the body has no vein there; missing: of body veins without print"},
-          {"vein_srgb", v->colours.vein},
-          {"ground_srgb", v->colours.ground},
-          {"vein_to_ground_delta_e2000", number(v->colours.delta_e)},
-          {"noticeable_delta_e2000", number(v->noticeable_delta_e)},
-          {"before", seen(v->before)},
-          {"after", seen(v->after)}};
+  return {
+      {"definition",
+       "S-CIELAB difference of two pictures in the graphic's mean vein and ground colours: veins where the body has them, veins where the print "
+       "lies. "
+       "Mean and P95 over what either vein covers, areas of the whole slab; visible length: of the print's centre line, where the difference across "
+       "the vein is noticeable and the shift is more than 1 arcmin or the body has no vein there; missing: of body veins without print"},
+      {"vein_srgb", v->colours.vein},
+      {"ground_srgb", v->colours.ground},
+      {"vein_to_ground_delta_e2000", number(v->colours.delta_e)},
+      {"noticeable_delta_e2000", number(v->noticeable_delta_e)},
+      {"before", seen(v->before)},
+      {"after", seen(v->after)}};
 }
 
 Json interval(const Interval& i, double unit) { return Json::array({number(i.low / unit), number(i.high / unit)}); }
@@ -120,6 +122,15 @@ Json zone(const ZoneScore& z) {
           {"body_length_mm", number(z.body_length_m * 1e3)}};
 }
 
+Json camera(const CameraReport& c) {
+  const bool residual = c.view.marks > 4;  // four marks are met exactly
+  return {{"marks", c.view.marks},
+          {"mark_residual_mm",
+           {{"median", number(residual ? c.view.mark_median_m * 1e3 : kNone)}, {"max", number(residual ? c.view.mark_max_m * 1e3 : kNone)}}},
+          {"camera_mm_per_px", {{"finest", number(c.view.finest_m_px * 1e3)}, {"coarsest", number(c.view.coarsest_m_px * 1e3)}}},
+          {"seen_share", number(c.visible)}};
+}
+
 }  // namespace
 
 std::string score_json_text(const ScoreReport& report, const Registration& registration) {
@@ -141,6 +152,7 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
   out["best_reachable_definition"] = report.best_reachable_definition;
   Json& details = out["details"];
   details["evidence"] = report.evidence;
+  if (report.camera) details["camera"] = camera(*report.camera);
   details["pose_only"] = report.pose_only ? contract(report.pose_only) : Json(nullptr);
   details["before"] = more(report.before);
   details["after"] = more(report.after);
