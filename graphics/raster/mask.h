@@ -14,5 +14,7 @@ Raster8 without_small_holes(const Raster8& mask, double min_pixels);
 /// Centre lines, one pixel wide, same topology. Source: Zhang, Suen, Comm. ACM 27 (1984) 236,
 /// with each removal checked again so that no part or hole is lost.
 Raster8 thin(const Raster8& mask);
+/// Pixels outside the mask take the value of the nearest one inside; unchanged for an empty mask. Same size, any channels.
+Raster8 continued_outside(const Raster8& image, const Raster8& mask);
 RasterF gaussian(const RasterF& image, double sigma_px);  ///< reflected border; sigma <= 0: unchanged
 }  // namespace venato::graphics

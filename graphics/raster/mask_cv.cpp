@@ -51,6 +51,26 @@ RasterF signed_distance(const Raster8& mask) {
 Raster8 without_small_parts(const Raster8& mask, double min_pixels) { return without_small(mask, min_pixels, 8, false); }
 Raster8 without_small_holes(const Raster8& mask, double min_pixels) { return inverted(without_small(inverted(mask), min_pixels, 4, true)); }
 
+Raster8 continued_outside(const Raster8& image, const Raster8& mask) {
+  VENATO_EXPECTS(mask.channels == 1 && mask.width == image.width && mask.height == image.height);
+  std::size_t inside = 0;
+  for (auto v : mask.data) inside += v != 0;
+  if (inside == 0 || inside == mask.data.size()) return image;
+  cv::Mat distance, label;  // every zero pixel of the inverted mask has a label of its own
+  cv::distanceTransform(view(inverted(mask)), distance, label, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+  std::vector<std::size_t> source(inside + 1, 0);
+  for (int j = 0; j < mask.height; ++j)
+    for (int i = 0; i < mask.width; ++i)
+      if (mask.at(i, j)) source[static_cast<std::size_t>(label.at<int>(j, i))] = image.index(i, j);
+  Raster8 out = image;
+  for (int j = 0; j < mask.height; ++j)
+    for (int i = 0; i < mask.width; ++i)
+      if (!mask.at(i, j))
+        for (int c = 0; c < image.channels; ++c)
+          out.at(i, j, c) = image.data[source[static_cast<std::size_t>(label.at<int>(j, i))] + static_cast<std::size_t>(c)];
+  return out;
+}
+
 RasterF gaussian(const RasterF& image, double sigma_px) {
   if (!(sigma_px > 0)) return image;
   RasterF out = image;

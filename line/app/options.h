@@ -7,7 +7,7 @@ namespace venato::line::app {
 /// What the command line said. Filled by CLI11 in parse.cpp.
 struct Options {
   std::string command;
-  std::filesystem::path input, out, vein_map, graphic;
+  std::filesystem::path input, out, vein_map, camera, graphic;
   std::vector<std::string> overrides;
   int threads = 0;  ///< 0 = all cores this process may use
   bool quiet = false, json_log = false, schema = false, dem = false;

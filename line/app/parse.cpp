@@ -71,11 +71,14 @@ Parsed parse(int argc, const char* const* argv) {
       "(open vtk/grains.pvd). A stopped run (Ctrl-C, kill, --until) leaves a checkpoint in the store; the same case then needs --resume or "
       "--restart.");
 
-  auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab");
+  auto* sync = app.add_subcommand("sync", "registration and score for any two pictures, e.g. a camera picture of a pressed slab (--camera)");
   sync->add_option("--vein-map", o.vein_map, "vein map or picture of the slab (TIFF, PNG, JPEG)")->required()->type_name("V");
   sync->add_option("--graphic", o.graphic, "the inkjet graphic")->required()->type_name("G");
+  auto* camera = sync->add_option("--camera", o.camera, "the vein map is a camera's picture: marks or homography, lens, size of the slab (JSON)");
+  camera->type_name("FILE");
   sync->add_option("--vein-pitch-mm", o.vein_pitch_mm, "pixel size of the vein map (default: dpi in the file)")
       ->check(CLI::Range(0.001, 1000.0))
+      ->excludes(camera)
       ->type_name("P");
   sync->add_option("--graphic-pitch-mm", o.graphic_pitch_mm, "pixel size of the graphic (default: dpi in the file)")
       ->check(CLI::Range(0.001, 1000.0))
@@ -90,6 +93,8 @@ Parsed parse(int argc, const char* const* argv) {
   add_out(*sync, o), add_common(*sync, o);
   sync->footer(
       "Example:\n  venato sync --vein-map out/demo/vein_map.tif --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
+      "  venato sync --vein-map camera.png --camera configs/camera/overhead.json --graphic graphic.png --graphic-pitch-mm 1 -o out/sync\n"
+      "The camera file is explained in graphics/rectify/README.md; rectified.png shows the picture in the slab's frame.\n"
       "The slab may be a portion of a larger graphic, anywhere in it. Exit 1 when the pictures do not belong together.");
 
   auto* masks = app.add_subcommand("masks", "printer files of a finished run again: another resolution, compression or polarity, nothing simulated");

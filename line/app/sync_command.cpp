@@ -7,6 +7,7 @@ namespace venato::line::app {
 int sync_command(const Options& o, Context& context) {
   sync::SyncOptions options;
   options.vein_map = o.vein_map;
+  options.camera = o.camera;
   options.graphic = o.graphic;
   if (o.vein_pitch_mm > 0) options.vein_pitch_m = o.vein_pitch_mm * 1e-3;
   if (o.graphic_pitch_mm > 0) options.graphic_pitch_m = o.graphic_pitch_mm * 1e-3;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "graphics/colour/srgb.h"
+#include "graphics/raster/mask.h"
 #include "graphics/raster/resample.h"
 #include "graphics/tiff/tiff_file.h"
 
@@ -66,24 +67,40 @@ graphics::RasterF planned_fraction(const graphics::Raster8& picture, graphics::V
 
 void plan_picture(SyncInput& input, const graphics::VeinPlanConfig& plan, bool tone_given) {
   using graphics::VeinTone;
+  // Beyond the valid part the picture goes on as it ends, so that neither its rim nor the darkness behind it reads as a vein.
+  const graphics::Raster8 seen = input.valid.empty() ? input.picture : graphics::continued_outside(input.picture, input.valid);
+  const auto planned = [&](VeinTone tone) {
+    graphics::RasterF fraction = planned_fraction(seen, plan, tone);
+    for (std::size_t k = 0; k < input.valid.data.size(); ++k)
+      if (!input.valid.data[k]) fraction.data[k] = 0;
+    return fraction;
+  };
   if (tone_given) {
     input.tone = plan.tone;
-    input.fraction = planned_fraction(input.picture, plan, plan.tone);
+    input.fraction = planned(plan.tone);
     return;
   }
-  graphics::RasterF dark = planned_fraction(input.picture, plan, VeinTone::darker), light = planned_fraction(input.picture, plan, VeinTone::lighter);
+  graphics::RasterF dark = planned(VeinTone::darker), light = planned(VeinTone::lighter);
   const auto as_vein = [](double share) { return share > kMostVein ? 0.0 : share; };
-  input.tone = as_vein(vein_share(light)) > kToneRatio * as_vein(vein_share(dark)) ? VeinTone::lighter : VeinTone::darker;
+  input.tone = as_vein(vein_share(light, input.valid)) > kToneRatio * as_vein(vein_share(dark, input.valid)) ? VeinTone::lighter : VeinTone::darker;
   input.fraction = std::move(input.tone == VeinTone::darker ? dark : light);
 }
 
 }  // namespace
 
-double vein_share(const graphics::RasterF& fraction) {
-  if (fraction.empty()) return 0;
-  std::size_t n = 0;
-  for (const float v : fraction.data) n += v >= 0.5f;
-  return static_cast<double>(n) / static_cast<double>(fraction.data.size());
+double vein_share(const graphics::RasterF& fraction, const graphics::Raster8& valid) {
+  std::size_t n = 0, of = 0;
+  for (std::size_t k = 0; k < fraction.data.size(); ++k) {
+    if (!valid.empty() && !valid.data[k]) continue;
+    n += fraction.data[k] >= 0.5f;
+    ++of;
+  }
+  return of ? static_cast<double>(n) / static_cast<double>(of) : 0;
+}
+
+void keep_valid(graphics::Raster8& mask, const graphics::Raster8& valid) {
+  for (std::size_t k = 0; k < valid.data.size(); ++k)
+    if (!valid.data[k]) mask.data[k] = 0;
 }
 
 graphics::Raster8 vein_mask(const graphics::RasterF& fraction) {
@@ -140,10 +157,35 @@ SyncInput load_input(const std::filesystem::path& file, std::optional<double> pi
   return input;
 }
 
+SyncInput load_camera_input(const std::filesystem::path& file, const std::filesystem::path& camera, const graphics::VeinPlanConfig& plan,
+                            bool tone_given, int threads) {
+  const graphics::CameraView view = graphics::read_camera(camera);
+  if (std::filesystem::is_regular_file(file) && is_tiff(file)) {
+    const graphics::TiffKind kind = graphics::read_tiff_info(file).kind;
+    if (kind == graphics::TiffKind::fractions_f32)
+      throw UsageError(file.string() + ": is a vein map of a run, which lies in the slab's frame already; --camera is for camera pictures");
+    if (kind == graphics::TiffKind::separated)
+      throw UsageError(file.string() + ": is a separated TIFF (inks); --camera is for camera pictures (grey or RGB)");
+  }
+  SyncInput input;
+  input.file = file;
+  input.camera = graphics::rectify(graphics::load_picture(file, view.pitch_m).pixels, view, threads);
+  input.pitch_in_file_m = view.pitch_m;
+  input.picture = input.camera->picture;
+  input.valid = input.camera->valid;
+  if (const int factor = factor_to_work_pitch(view.pitch_m); factor > 1) {
+    input.picture = graphics::shrink(input.picture, factor);
+    input.valid = graphics::shrink(input.valid, factor);
+    for (auto& v : input.valid.data) v = v == 255 ? 255 : 0;  // wholly seen
+  }
+  plan_picture(input, plan, tone_given);
+  return input;
+}
+
 std::vector<EvidencePair> evidence_pairs(const SyncInput& vein_map, const SyncInput& graphic) {
-  const auto of_fraction = [](const SyncInput& input) { return Evidence{input.fraction, {}, EvidenceKind::vein_fraction}; };
+  const auto of_fraction = [](const SyncInput& input) { return Evidence{input.fraction, input.valid, EvidenceKind::vein_fraction}; };
   const auto of_look = [&](const SyncInput& input) {
-    return input.is_fraction_map ? of_fraction(input) : Evidence{lightness(input.picture), {}, EvidenceKind::picture};
+    return input.is_fraction_map ? of_fraction(input) : Evidence{lightness(input.picture), input.valid, EvidenceKind::picture};
   };
   std::vector<EvidencePair> pairs;
   if (vein_map.is_fraction_map) pairs.push_back({"vein fraction against planned veins", of_fraction(vein_map), of_fraction(graphic)});

@@ -6,6 +6,7 @@
 #include "graphics/graphic.h"
 #include "graphics/plan/vein_plan.h"
 #include "graphics/raster/raster.h"
+#include "graphics/rectify/rectify.h"
 #include "sync/registration/registration.h"
 namespace venato::sync {
 
@@ -15,8 +16,10 @@ struct SyncInput {
   bool is_fraction_map = false;  ///< float fractions of a run
   graphics::RasterF fraction;    ///< vein fraction 0..1: from the map, or planned from the picture
   graphics::Raster8 picture;     ///< sRGB or grey; empty for a fraction map
-  bool has_colours = false;      ///< the picture's are those of the print; false for fractions and inks (whose picture is their sum)
-  double pitch_in_file_m = 0;    ///< of the file as loaded
+  graphics::Raster8 valid;       ///< 255 where a camera saw the slab, size of fraction and picture; empty: everywhere. No veins where it did not.
+  std::optional<graphics::Rectified> camera;  ///< at the camera file's pitch
+  bool has_colours = false;                   ///< the picture's are those of the print; false for fractions and inks (whose picture is their sum)
+  double pitch_in_file_m = 0;                 ///< of the file as loaded
   bool pitch_from_file = false;
   graphics::VeinTone tone = graphics::VeinTone::darker;  ///< how the veins of the picture were found
 };
@@ -25,6 +28,10 @@ struct SyncInput {
 /// \throws UsageError naming file and reason
 SyncInput load_input(const std::filesystem::path& file, std::optional<double> pitch_m, const std::string& pitch_option,
                      const graphics::VeinPlanConfig& plan, bool tone_given);
+/// A camera's picture of the slab, brought into the slab's frame by its camera file. \throws UsageError: rectify()'s reasons, and for fraction maps
+/// and separated TIFFs, which no camera takes
+SyncInput load_camera_input(const std::filesystem::path& file, const std::filesystem::path& camera, const graphics::VeinPlanConfig& plan,
+                            bool tone_given, int threads);
 
 /// What registration compares.
 struct EvidencePair {
@@ -39,6 +46,8 @@ std::vector<EvidencePair> evidence_pairs(const SyncInput& vein_map, const SyncIn
 graphics::RasterF lightness(const graphics::Raster8& picture);
 /// 255 where the fraction is at least one half.
 graphics::Raster8 vein_mask(const graphics::RasterF& fraction);
-/// Share of pixels that are vein.
-double vein_share(const graphics::RasterF& fraction);
+/// Share of (valid) pixels that are vein.
+double vein_share(const graphics::RasterF& fraction, const graphics::Raster8& valid = {});
+/// Sets what is not valid to 0; an empty `valid` is valid everywhere.
+void keep_valid(graphics::Raster8& mask, const graphics::Raster8& valid);
 }  // namespace venato::sync

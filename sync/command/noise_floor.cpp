@@ -56,6 +56,18 @@ graphics::RasterF resampled(const graphics::RasterF& source, const Transform& ma
   return out;
 }
 
+/// Pixels whose four neighbours were not all seen are not seen.
+void keep_seen(graphics::Raster8& valid, const graphics::Raster8& seen, const Transform& map) {
+  if (seen.empty()) return;
+  for (int j = 0; j < valid.height; ++j)
+    for (int i = 0; i < valid.width; ++i) {
+      if (!valid.at(i, j)) continue;
+      const Point p = map(Point((i + 0.5) * valid.pitch_m, (j + 0.5) * valid.pitch_m)) / seen.pitch_m;
+      const int i0 = std::min(static_cast<int>(p.x() - 0.5), seen.width - 2), j0 = std::min(static_cast<int>(p.y() - 0.5), seen.height - 2);
+      if (!seen.at(i0, j0) || !seen.at(i0 + 1, j0) || !seen.at(i0, j0 + 1) || !seen.at(i0 + 1, j0 + 1)) valid.at(i, j) = 0;
+    }
+}
+
 }  // namespace
 
 std::optional<Metrics> noise_floor(const EvidencePair& evidence, const graphics::RasterF& body_fraction, const Registration& found,
@@ -70,10 +82,11 @@ std::optional<Metrics> noise_floor(const EvidencePair& evidence, const graphics:
   Evidence copy;
   copy.kind = evidence.green.kind;
   copy.value = resampled(evidence.green.value, green_from_copy, frame.width, frame.height, frame.pitch_m, copy.valid);
+  keep_seen(copy.valid, evidence.green.valid, green_from_copy);
   const Registration back = register_veins(evidence.green, copy, config, std::nullopt, context);
   if (!back.success) return std::nullopt;
-  const graphics::Raster8 print =
-      mask_on_green(copy_fraction, back.print_from_green, body_fraction.width, body_fraction.height, body_fraction.pitch_m);
+  graphics::Raster8 print = mask_on_green(copy_fraction, back.print_from_green, body_fraction.width, body_fraction.height, body_fraction.pitch_m);
+  keep_valid(print, evidence.green.valid);
   return score_masks(vein_mask(body_fraction), print, score);
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/error.h"
 #include "base/io/atomic_file.h"
@@ -23,8 +24,35 @@ void tell_input(const char* what, const SyncInput& input, Log& log) {
   char text[200];
   const auto& raster = input.fraction;
   std::snprintf(text, sizeof text, ": %.4f mm/px (%s), %.0f x %.0f mm, veins on %.1f %%", input.pitch_in_file_m * 1e3,
-                input.pitch_from_file ? "from the file" : "given", raster.width_m() * 1e3, raster.height_m() * 1e3, 100 * vein_share(raster));
+                input.camera            ? "rectified"
+                : input.pitch_from_file ? "from the file"
+                                        : "given",
+                raster.width_m() * 1e3, raster.height_m() * 1e3, 100 * vein_share(raster, input.valid));
   log.info(std::string(what) + text + (input.is_fraction_map ? " (fractions)" : std::string(" (") + tone_text(input.tone) + " than the body)"));
+}
+
+void tell_camera(const SyncInput& input, Log& log) {
+  if (!input.camera) return;
+  const auto& view = input.camera->view;
+  char text[240];
+  std::snprintf(text, sizeof text, "camera: %.3f to %.3f mm/px on the slab, %.1f %% of it seen", view.finest_m_px * 1e3, view.coarsest_m_px * 1e3,
+                100 * input.camera->visible);
+  std::string all = text;
+  if (view.marks > 4) {
+    std::snprintf(text, sizeof text, "; %d marks, residual median %.3f mm, largest %.3f mm", view.marks, view.mark_median_m * 1e3,
+                  view.mark_max_m * 1e3);
+    all += text;
+  } else if (view.marks == 4) {
+    all += "; four marks leave no residual: a wrong one is not noticed, five or more are";
+  }
+  log.info(all);
+}
+
+/// No edge of a vein is where the picture ends.
+graphics::RasterF nan_outside(graphics::RasterF fraction, const graphics::Raster8& valid) {
+  for (std::size_t k = 0; k < valid.data.size(); ++k)
+    if (!valid.data[k]) fraction.data[k] = std::numeric_limits<float>::quiet_NaN();
+  return fraction;
 }
 
 std::string error_text(const Metrics& m) {
@@ -50,7 +78,7 @@ std::string stretch_text(const SlabStretch& s) {
 
 void remove_stale(const std::filesystem::path& out) {
   // Results of an earlier, successful call must not stand beside a failure.
-  for (const char* name : {"score.json", "map.csv", "overlay.png", "misfit.png", "visibility.png"}) {
+  for (const char* name : {"score.json", "map.csv", "overlay.png", "misfit.png", "visibility.png", "rectified.png"}) {
     std::error_code error;
     std::filesystem::remove(out / name, error);
   }
@@ -59,7 +87,7 @@ void remove_stale(const std::filesystem::path& out) {
 /// Two pictures without a vein between them have nothing to register; say so in the result like every other failure.
 std::string no_veins_reason(const SyncInput& vein_map, const SyncInput& graphic) {
   for (const auto* input : {&vein_map, &graphic})
-    if (!(vein_share(input->fraction) > 0)) return "no veins found in " + input->file.filename().string();
+    if (!(vein_share(input->fraction, input->valid) > 0)) return "no veins found in " + input->file.filename().string();
   return "";
 }
 
@@ -89,10 +117,16 @@ Registered register_best(std::vector<EvidencePair> pairs, const RegistrationConf
 }  // namespace
 
 int run_sync(const SyncOptions& options, Context& context) {
-  const SyncInput vein_map = load_input(options.vein_map, options.vein_pitch_m, "--vein-pitch-mm", options.plan, options.tone_given);
+  if (!options.camera.empty() && options.vein_pitch_m)
+    throw UsageError("--vein-pitch-mm: not together with --camera, whose file says the pitch (pitch_mm)");
+  const SyncInput vein_map = options.camera.empty()
+                                 ? load_input(options.vein_map, options.vein_pitch_m, "--vein-pitch-mm", options.plan, options.tone_given)
+                                 : load_camera_input(options.vein_map, options.camera, options.plan, options.tone_given, context.threads);
   const SyncInput graphic = load_input(options.graphic, options.graphic_pitch_m, "--graphic-pitch-mm", options.plan, options.tone_given);
   make_output_folder(options.out);
   remove_stale(options.out);
+  if (vein_map.camera) graphics::write_png(options.out / "rectified.png", vein_map.camera->picture);
+  tell_camera(vein_map, context.log);
   tell_input("vein map", vein_map, context.log);
   tell_input("graphic", graphic, context.log);
 
@@ -102,17 +136,22 @@ int run_sync(const SyncOptions& options, Context& context) {
     registration.reason = reason;
   }
   const graphics::Raster8 body = vein_mask(vein_map.fraction);
-  const auto print_on_green = [&](const Transform& map) { return mask_on_green(graphic.fraction, map, body.width, body.height, body.pitch_m); };
+  const auto print_on_green = [&](const Transform& map) {
+    graphics::Raster8 print = mask_on_green(graphic.fraction, map, body.width, body.height, body.pitch_m);
+    keep_valid(print, vein_map.valid);  // what the camera did not see is neither right nor wrong
+    return print;
+  };
 
   ScoreReport report;
   report.before_definition = kBeforeDefinition;
   report.after_definition = kAfterDefinition;
   report.evidence = evidence.name;
+  if (vein_map.camera) report.camera = CameraReport{vein_map.camera->view, vein_map.camera->visible};
   report.tolerance = options.zones.tolerance;
   report.best_reachable_definition = kNoiseFloorDefinition;
   const graphics::Raster8 before = print_on_green(Transform{});
   report.before = score_masks(body, before, options.score);
-  report.body_edge = edge_widths(vein_map.fraction, centre_links(body, options.score.min_width_m));
+  report.body_edge = edge_widths(nan_outside(vein_map.fraction, vein_map.valid), centre_links(body, options.score.min_width_m));
   report.print_edge = edge_widths(graphic.fraction, centre_links(vein_mask(graphic.fraction), options.score.min_width_m));
   graphics::Raster8 after;
   OverlayTexts texts;

@@ -122,6 +122,15 @@ Json zone(const ZoneScore& z) {
           {"body_length_mm", number(z.body_length_m * 1e3)}};
 }
 
+Json camera(const CameraReport& c) {
+  const bool residual = c.view.marks > 4;  // four marks are met exactly
+  return {{"marks", c.view.marks},
+          {"mark_residual_mm",
+           {{"median", number(residual ? c.view.mark_median_m * 1e3 : kNone)}, {"max", number(residual ? c.view.mark_max_m * 1e3 : kNone)}}},
+          {"camera_mm_per_px", {{"finest", number(c.view.finest_m_px * 1e3)}, {"coarsest", number(c.view.coarsest_m_px * 1e3)}}},
+          {"seen_share", number(c.visible)}};
+}
+
 }  // namespace
 
 std::string score_json_text(const ScoreReport& report, const Registration& registration) {
@@ -153,6 +162,7 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
   out["best_reachable_definition"] = report.best_reachable_definition;
   Json& details = out["details"];
   details["evidence"] = report.evidence;
+  if (report.camera) details["camera"] = camera(*report.camera);
   details["pose_only"] = report.pose_only ? contract(report.pose_only) : Json(nullptr);
   details["before"] = more(report.before);
   details["after"] = more(report.after);

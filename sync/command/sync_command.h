@@ -10,8 +10,9 @@ namespace venato::sync {
 
 /// `venato sync`: any two pictures of which one should be printed on the other.
 struct SyncOptions {
-  std::filesystem::path vein_map;                       ///< vein_map.tif of a run (float fractions, first channel = body), or a picture of a slab
-  std::filesystem::path graphic;                        ///< PNG, JPEG or TIFF picture, or an N-ink separated TIFF
+  std::filesystem::path vein_map;  ///< vein_map.tif of a run (float fractions, first channel = body), or a picture of a slab
+  std::filesystem::path camera;    ///< camera file (graphics/rectify): vein_map is its picture; empty: vein_map lies in the slab's frame
+  std::filesystem::path graphic;   ///< PNG, JPEG or TIFF picture, or an N-ink separated TIFF
   std::optional<double> vein_pitch_m, graphic_pitch_m;  ///< absent: the file's own dpi
   std::filesystem::path out;                            ///< folder
   RegistrationConfig registration;
@@ -22,7 +23,7 @@ struct SyncOptions {
 };
 
 /// Writes score.json, overlay.png and, when the pictures belong together, map.csv (10 mm grid), misfit.png and, for a
-/// graphic with colours, visibility.png into `out`.
+/// graphic with colours, visibility.png into `out`; with a camera also rectified.png, its picture in the slab's frame.
 /// \return 0; 1 when they do not belong together: success = false with the reason in score.json, no map.csv
 /// \throws UsageError: missing or broken file, no pitch (says which option gives it), unwritable folder; WorkError: disk full
 int run_sync(const SyncOptions& options, Context& context);
