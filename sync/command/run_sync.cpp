@@ -69,6 +69,13 @@ std::string lying_text(const Lying& l) {
   return text;
 }
 
+std::string stretch_text(const SlabStretch& s) {
+  char text[160];
+  std::snprintf(text, sizeof text, "slab against graphic: %+.2f %% along the belt (y), %+.2f %% across, shear %+.2f mm per m", s.along * 100,
+                s.across * 100, s.shear * 1e3);
+  return text;
+}
+
 void remove_stale(const std::filesystem::path& out) {
   // Results of an earlier, successful call must not stand beside a failure.
   for (const char* name : {"score.json", "map.csv", "overlay.png", "misfit.png", "visibility.png", "rectified.png"}) {
@@ -173,7 +180,10 @@ int run_sync(const SyncOptions& options, Context& context) {
   }
   if (report.visibility && registration.success) graphics::write_png(options.out / "visibility.png", visibility_figure(report.visibility->after));
   write_text_atomically(options.out / "score.json", score_json_text(report, registration));
-  if (registration.success) context.log.info(lying_text(how_it_lies(registration.pose_only)));
+  if (registration.success) {
+    context.log.info(lying_text(how_it_lies(registration.pose_only)));
+    context.log.info(stretch_text(registration.stretch));
+  }
   context.log.info(registration.success ? "registered; " + texts.note : texts.note);
   return registration.success ? 0 : 1;
 }

@@ -28,6 +28,7 @@ struct ScoreReport {
 };
 
 /// The text of score.json: "before", "after", "best_reachable" (centreline_error_mm {median, p95}, matched_length, boundary_f1 {1mm, 2mm, 3mm},
-/// dice), "registration" {success, reason, confidence}, then definitions and details (further metrics with unit in their names, gates, zones).
+/// dice), "registration" {success, reason, confidence; graphic_lies and slab_stretch on
+/// success}, then definitions and details (further metrics with unit in their names, gates, zones).
 std::string score_json_text(const ScoreReport& report, const Registration& registration);
 }  // namespace venato::sync

@@ -146,6 +146,16 @@ std::string score_json_text(const ScoreReport& report, const Registration& regis
                                            {"rotation_deg", number(l.rotation_rad * 180 / M_PI)},
                                            {"slab_corner_in_graphic_mm", {number(l.corner_m.x() * 1e3), number(l.corner_m.y() * 1e3)}}};
   }
+  if (registration.success) {
+    const SlabStretch& s = registration.stretch;
+    out["registration"]["slab_stretch"] = {
+        {"along_belt_percent", number(s.along * 100)},
+        {"across_belt_percent", number(s.across * 100)},
+        {"shear_mm_per_m", number(s.shear * 1e3)},
+        {"definition",
+         "the slab against the graphic at the given mm per pixel, mean over the slab; positive: the slab is longer; along the belt = y of "
+         "the slab"}};
+  }
   out["verdict"] = verdict(report);
   out["before_definition"] = report.before_definition;
   out["after_definition"] = report.after_definition;

@@ -1,4 +1,5 @@
 #include "sync/transform/transform.h"
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <string>
@@ -51,6 +52,31 @@ Lying how_it_lies(const Transform& affine) {
   out.turn_deg = (quarters + 4) % 4 * 90;
   out.rotation_rad = angle - quarters * (M_PI / 2);
   out.corner_m = affine.t;
+  return out;
+}
+
+SlabStretch slab_stretch(const Transform& affine) {
+  const Eigen::Matrix2d square = affine.a.transpose() * affine.a;
+  if (!(square.determinant() > 1e-24)) throw WorkError("the stretch of a singular map is not defined");
+  const Eigen::Matrix2d slab_from_graphic = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(square).operatorInverseSqrt();
+  return {slab_from_graphic(1, 1) - 1, slab_from_graphic(0, 0) - 1, 2 * slab_from_graphic(0, 1)};
+}
+
+Transform mean_affine(const Transform& map, double width_m, double height_m, double step_m) {
+  const int columns = static_cast<int>(width_m / step_m), rows = static_cast<int>(height_m / step_m);
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const Point p((i + 0.5) * width_m / columns, (j + 0.5) * height_m / rows);
+      const Eigen::Vector3d row(p.x(), p.y(), 1);
+      normal += row * row.transpose();
+      right += row * map(p).transpose();
+    }
+  const Eigen::Matrix<double, 3, 2> fit = normal.inverse() * right;
+  Transform out;
+  out.a = fit.topRows<2>().transpose();
+  out.t = fit.row(2).transpose();
   return out;
 }
 }  // namespace venato::sync

@@ -58,6 +58,19 @@ struct Lying {
 };
 Lying how_it_lies(const Transform& affine);
 
+/// How the slab is stretched against the graphic, in the slab's own axes: x across the belt, y along it. The affine part is rotation (and mirror)
+/// times a symmetric stretch (polar decomposition); this is the inverse of that stretch less one, so that positive = the slab is longer than the
+/// graphic.
+struct SlabStretch {
+  double along = 0, across = 0;  ///< [-] relative; belts of different speeds show in `along` alone, a wrong mm per pixel in both
+  double shear = 0;              ///< [-] departure of the angle between x and y from 90 deg [rad], > 0 if it is smaller
+};
+/// \throws WorkError when the affine part is singular
+SlabStretch slab_stretch(const Transform& affine);
+/// Least-squares affine part of the whole map on a grid of `step_m` over [0, width_m] x [0, height_m].
+/// \pre width_m, height_m >= step_m
+Transform mean_affine(const Transform& map, double width_m, double height_m, double step_m);
+
 /// Smallest and largest Jacobian determinant of p -> p + u(p) on a grid of `step_m` over [0, width_m] x [0, height_m].
 /// All four combinations of forward and backward differences are taken: the central difference misses chequerboard folds.
 /// The map does not fold on the grid if min > 0. Source: Liu et al., IJCV 2024 (arXiv 2212.06060).

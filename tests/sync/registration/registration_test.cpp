@@ -71,6 +71,34 @@ TEST(Registration, PureShiftIsExactToTwoHundredthsOfAMillimetre) {
   }
 }
 
+TEST(Registration, StretchAlongTheBeltIsToldWithItsSign) {
+  Bench bench;
+  const RasterF print = crop(plan(true), 500, 0, 640, 1240);
+  // The map is print_from_green: a slab that is 0.4 % longer is seen through 1 / 1.004. 3 mm waves besides.
+  for (const auto& [along, across] : {std::pair(0.004, 0.0), std::pair(-0.003, 0.001), std::pair(0.0, 0.0)}) {
+    const Truth truth = make_truth({M_PI / 180, 1 / (1 + across), 1 / (1 + along), 0.003, {0.015, 0.010}}, 0.6, 1.2, 3);
+    const Registration r = bench.run(make_slab(print, truth, {2, 0.03, 0, 1, 600, 1200}, 3), print, EvidenceKind::vein_fraction);
+    ASSERT_TRUE(r.success) << r.reason;
+    // The waves have an affine part of their own, which belongs to the truth.
+    Eigen::MatrixXd at(60 * 120, 3), to(60 * 120, 2);
+    for (int k = 0; k < 60 * 120; ++k) {
+      const Point p((k % 60 + 0.5) * 0.01, (k / 60 + 0.5) * 0.01);
+      at.row(k) << p.x(), p.y(), 1;
+      to.row(k) = truth(p).transpose();
+    }
+    const Eigen::MatrixXd fit = (at.transpose() * at).inverse() * (at.transpose() * to);
+    Transform affine;
+    affine.a = fit.topRows(2).transpose();
+    const SlabStretch wanted = slab_stretch(affine);
+    // 0.05 % is 0.6 mm over this slab: twice the allowed median error of the map itself, at its two ends.
+    EXPECT_NEAR(r.stretch.along, wanted.along, 0.0005);
+    EXPECT_NEAR(r.stretch.across, wanted.across, 0.001);
+    EXPECT_NEAR(r.stretch.shear, wanted.shear, 0.001);
+    std::printf("stretch %+.2f/%+.2f %%: found %+.4f/%+.4f, wanted %+.4f/%+.4f %%\n", along * 100, across * 100, r.stretch.along * 100,
+                r.stretch.across * 100, wanted.along * 100, wanted.across * 100);
+  }
+}
+
 TEST(Registration, KnownSmoothWarpIsFoundInBothKindsOfEvidence) {
   Bench bench;
   for (const bool network : {false, true})

@@ -125,5 +125,27 @@ TEST(JacobianRange, ChequerboardFoldIsSeenThoughCentralDifferencesAreZero) {
   EXPECT_NEAR(jacobian_range(u, 0.9, 0.9, 0.1).min, -1, 1e-9);
   EXPECT_GT(jacobian_range(wavy_field(0.004), 0.6, 1.2, 0.01).min, 0.8);
 }
+TEST(SlabStretch, IsReadOffAnyTurnAndMirror) {
+  const double along = 0.004, across = -0.003, shear = 0.002;
+  Eigen::Matrix2d slab_from_graphic;
+  slab_from_graphic << 1 + across, shear / 2, shear / 2, 1 + along;
+  for (const double angle : {0.0, 0.02, M_PI / 2, M_PI, -M_PI / 2})
+    for (const int mirror : {1, -1}) {
+      Transform map;
+      Eigen::Matrix2d turn;
+      turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+      turn.col(0) *= mirror;
+      map.a = turn * slab_from_graphic.inverse();
+      const SlabStretch s = slab_stretch(map);
+      EXPECT_NEAR(s.along, along, 1e-12);
+      EXPECT_NEAR(s.across, across, 1e-12);
+      EXPECT_NEAR(s.shear, shear, 1e-12);
+      const Transform mean = mean_affine(map, 0.6, 1.2, 0.01);
+      EXPECT_NEAR((mean.a - map.a).norm(), 0, 1e-9);
+    }
+  Transform flat;
+  flat.a << 1, 0, 0, 0;
+  EXPECT_THROW(slab_stretch(flat), WorkError);
+}
 }  // namespace
 }  // namespace venato::sync
