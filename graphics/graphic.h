@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,9 @@ struct Ink {
 
 /// The ICC profile that a graphic was separated through.
 struct ProfileUse {
-  std::string description;        ///< its 'desc' tag
-  double out_of_gamut_share = 0;  ///< [0, 1], of the pixels: colorimetric round trip off by a CIEDE2000 difference over 3
+  std::string description;  ///< its 'desc' tag
+  /// [0, 1], of the pixels: colorimetric round trip off by a CIEDE2000 difference over 3. NaN when no colour was turned into inks.
+  double out_of_gamut_share = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The inkjet graphic in its own frame (print frame before synchronisation): N ink channels, 0 = no ink, 255 = full ink.

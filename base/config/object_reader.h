@@ -21,7 +21,8 @@ struct Range {
   std::string_view why = "";  ///< shown in the message, e.g. "press rating"
 };
 
-/// The rest of one declaration. A key without fallback is required, unless it is `optional`: absent, `out` keeps its value. Fallbacks are in the key's own unit.
+/// The rest of one declaration. A key without fallback is required, unless it is `optional`: absent, `out` keeps its value. Fallbacks are in the
+/// key's own unit.
 template <class T>
 struct Opt {
   std::string_view help = "";

@@ -21,8 +21,8 @@ enum class RenderingIntent { perceptual, relative_colorimetric, saturation, abso
 /// \throws UsageError naming the file, what it is and what is wanted: missing, truncated, not an ICC profile, another class or colour space
 ///   (display, scanner, device link; RGB; over 15 inks), no table to the inks or back, damaged tables.
 Graphic separate_by_profile(const Raster8& srgb, const std::filesystem::path& profile, RenderingIntent intent, int threads);
-/// Ink amounts as they are, with names, colours and the picture (srgb) from the profile's forward table. No share out of gamut: nothing was mapped.
-/// \param ink channels = inks of the profile, 0 = no ink \throws UsageError as above, and when the channels differ
+/// Ink amounts as they are, with names, colours and the picture (srgb) from the profile's forward table. The share out of gamut is NaN: nothing was
+/// mapped. \param ink channels = inks of the profile, 0 = no ink \throws UsageError as above, and when the channels differ
 Graphic see_by_profile(const Raster8& ink, const std::filesystem::path& profile, int threads);
 /// What the profile says without any picture. \throws UsageError as above
 struct ProfileInks {

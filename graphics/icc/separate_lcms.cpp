@@ -89,9 +89,9 @@ Graphic see_by_profile(const Raster8& ink, const std::filesystem::path& profile_
   g.ink = ink;
   g.srgb = Raster8(ink.width, ink.height, 3, ink.pitch_m);
   // Without a precalculated grid: with many inks it would be coarser than the profile's own.
-  transform_rows(profile.transform({seen_step(profile), srgb_step(profile)}, profile.ink_format(), TYPE_RGB_8, cmsFLAGS_NOOPTIMIZE).get(), ink, g.srgb,
-                 threads);
-  g.profile = ProfileUse{profile.description(), 0};
+  transform_rows(profile.transform({seen_step(profile), srgb_step(profile)}, profile.ink_format(), TYPE_RGB_8, cmsFLAGS_NOOPTIMIZE).get(), ink,
+                 g.srgb, threads);
+  g.profile = ProfileUse{.description = profile.description()};
   return g;
 }
 

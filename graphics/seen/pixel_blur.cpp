@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "graphics/raster/weighted_sum.h"
 namespace venato::graphics {
 namespace {
-constexpr double kCut = 4;              // sd
+constexpr double kCut = 4;  // sd
 constexpr double kCellsPerDeviation = 3;
-constexpr int kLanes = 32;              // output pixels summed side by side: SIMD width does not change a sum
 
 std::vector<float> kernel(double sd_px) {
   const int r = std::max(1, static_cast<int>(std::ceil(kCut * sd_px)));
@@ -22,27 +23,17 @@ std::vector<float> kernel(double sd_px) {
   return out;
 }
 
-/// out[i] = sum_k w[k] rows[k][i] for i < n, n a multiple of kLanes.
-__attribute__((target_clones("avx2", "default"))) void weighted_sum(const float* const* rows, const float* w, int taps, int n, float* out) {
-  for (int i = 0; i < n; i += kLanes) {
-    float sum[kLanes] = {};
-    for (int k = 0; k < taps; ++k)
-      for (int l = 0; l < kLanes; ++l) sum[l] += w[k] * rows[k][i + l];
-    for (int l = 0; l < kLanes; ++l) out[i + l] = sum[l];
-  }
-}
-
 /// Cells of cell x cell pixels averaged, `pad` more cells than the image needs on every side.
 struct Cells {
   int width = 0, height = 0, cell = 1, pad = 0;  ///< in cells, with the padding
   std::vector<float> data;
 };
-Cells averaged(const RasterF& image, int cell, int pad) {
+Cells averaged(const RasterF& image, int cell, int pad, int threads) {
   Cells out;
   out.cell = cell, out.pad = pad;
   out.width = (image.width + cell - 1) / cell + 2 * pad, out.height = (image.height + cell - 1) / cell + 2 * pad;
   out.data.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
-#pragma omp parallel
+#pragma omp parallel num_threads(threads)
   {
     std::vector<float> column(static_cast<std::size_t>(image.width));  // sums down the rows of a cell
 #pragma omp for schedule(static)
@@ -71,15 +62,15 @@ Cells averaged(const RasterF& image, int cell, int pad) {
 }
 
 /// Kernel applied where it fits: r cells less on every side.
-Cells filtered(const Cells& in, const std::vector<float>& w) {
+Cells filtered(const Cells& in, const std::vector<float>& w, int threads) {
   const int taps = static_cast<int>(w.size()), r = taps / 2;
   Cells out;
   out.cell = in.cell, out.pad = in.pad - r, out.width = in.width - 2 * r, out.height = in.height - 2 * r;
-  const int room = (out.width + kLanes - 1) / kLanes * kLanes;
+  const int room = (out.width + kSumLanes - 1) / kSumLanes * kSumLanes;
   const auto stride = static_cast<std::size_t>(room);
   std::vector<float> across(stride * static_cast<std::size_t>(in.height));
   out.data.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
-#pragma omp parallel
+#pragma omp parallel num_threads(threads)
   {
     std::vector<float> line(stride + static_cast<std::size_t>(2 * r)), sum(stride);
     std::vector<const float*> rows(w.size());
@@ -114,10 +105,10 @@ std::vector<Spline> splines(int n, const Cells& cells) {
   }
   return out;
 }
-RasterF enlarged(const Cells& cells, int width, int height, double pitch_m) {
+RasterF enlarged(const Cells& cells, int width, int height, double pitch_m, int threads) {
   RasterF out(width, height, 1, pitch_m);
   const std::vector<Spline> xs = splines(width, cells), ys = splines(height, cells);
-#pragma omp parallel
+#pragma omp parallel num_threads(threads)
   {
     std::vector<float> line(static_cast<std::size_t>(cells.width));
 #pragma omp for schedule(static)
@@ -125,8 +116,8 @@ RasterF enlarged(const Cells& cells, int width, int height, double pitch_m) {
       const Spline& y = ys[static_cast<std::size_t>(j)];
       const float* row = cells.data.data() + static_cast<std::size_t>(y.first) * static_cast<std::size_t>(cells.width);
       for (int i = 0; i < cells.width; ++i)
-        line[static_cast<std::size_t>(i)] =
-            y.weight[0] * row[i] + y.weight[1] * row[i + cells.width] + y.weight[2] * row[i + 2 * cells.width] + y.weight[3] * row[i + 3 * cells.width];
+        line[static_cast<std::size_t>(i)] = y.weight[0] * row[i] + y.weight[1] * row[i + cells.width] + y.weight[2] * row[i + 2 * cells.width] +
+                                            y.weight[3] * row[i + 3 * cells.width];
       for (int i = 0; i < width; ++i) {
         const Spline& x = xs[static_cast<std::size_t>(i)];
         const float* at = line.data() + x.first;
@@ -138,14 +129,14 @@ RasterF enlarged(const Cells& cells, int width, int height, double pitch_m) {
 }
 }  // namespace
 
-RasterF pixel_blur(const RasterF& image, double sd_px) {
-  VENATO_EXPECTS(image.channels == 1 && sd_px > 0 && std::isfinite(sd_px));
+RasterF pixel_blur(const RasterF& image, double sd_px, int threads) {
+  VENATO_EXPECTS(image.channels == 1 && sd_px > 0 && std::isfinite(sd_px) && threads > 0);
   if (image.empty()) return image;
   const int cell = std::max(1, static_cast<int>(sd_px / kCellsPerDeviation));
   if (cell == 1) {
     const std::vector<float> w = kernel(sd_px);
     RasterF out(image.width, image.height, 1, image.pitch_m);
-    out.data = filtered(averaged(image, 1, static_cast<int>(w.size() / 2)), w).data;
+    out.data = filtered(averaged(image, 1, static_cast<int>(w.size() / 2), threads), w, threads).data;
     return out;
   }
   // Variances add [cells^2]: averaging (1 - 1/cell^2) / 12, the kernel's own integration over a cell 1/12, the B-spline 1/3; wanted: sd^2 and that of
@@ -153,6 +144,7 @@ RasterF pixel_blur(const RasterF& image, double sd_px) {
   const double c2 = static_cast<double>(cell) * cell;
   const std::vector<float> w = kernel(std::sqrt((sd_px * sd_px + 1.0 / 12 - (c2 - 1) / 12) / c2 - 1.0 / 12 - 1.0 / 3));
   constexpr int kSplineReach = 2;
-  return enlarged(filtered(averaged(image, cell, static_cast<int>(w.size() / 2) + kSplineReach), w), image.width, image.height, image.pitch_m);
+  return enlarged(filtered(averaged(image, cell, static_cast<int>(w.size() / 2) + kSplineReach, threads), w, threads), image.width, image.height,
+                  image.pitch_m, threads);
 }
 }  // namespace venato::graphics

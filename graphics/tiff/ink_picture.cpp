@@ -14,7 +14,8 @@ TiffInfo checked_info(const std::filesystem::path& file, double max_pixels) {
   TiffInfo info = read_tiff_info(file);
   if (info.kind != TiffKind::separated) refuse(file, "is not a separated TIFF (Photometric 5)");
   if (info.bits != 8) refuse(file, "has " + std::to_string(info.bits) + " bit inks; 8 bit contone wanted");
-  if (static_cast<double>(info.width) * static_cast<double>(info.height) > max_pixels) refuse(file, too_many_pixels(info.width, info.height, max_pixels));
+  if (static_cast<double>(info.width) * static_cast<double>(info.height) > max_pixels)
+    refuse(file, too_many_pixels(info.width, info.height, max_pixels));
   return info;
 }
 }  // namespace
@@ -34,7 +35,6 @@ InkPictureInfo read_ink_picture_info(const std::filesystem::path& file, double m
   const TiffInfo info = checked_info(file, max_pixels);
   InkPictureInfo out{info.width, info.height, info.channels, info.dpi, info.ink_names};
   if (out.names.size() != static_cast<std::size_t>(out.inks)) out.names.clear();
-  if (out.names.empty() && out.inks == 4) out.names = {"cyan", "magenta", "yellow", "black"};  // InkSet 1 and its default
   return out;
 }
 

@@ -14,7 +14,7 @@ struct InkPictureInfo {
   std::int64_t width = 0, height = 0;
   int inks = 0;
   double dpi = 0;                  ///< 0: not in the file
-  std::vector<std::string> names;  ///< InkNames; cyan, magenta, yellow, black for four channels without; else empty
+  std::vector<std::string> names;  ///< InkNames, one per ink; empty without
 };
 /// \throws UsageError naming file and reason: not a separated TIFF, samples other than 8 bit, more than max_pixels
 InkPictureInfo read_ink_picture_info(const std::filesystem::path& file, double max_pixels = 2.5e8);

@@ -21,7 +21,7 @@ struct TiffInfo {
   int rows_per_strip = 64;
   std::vector<std::string> ink_names;  ///< separated: one per channel
   std::string description, software;   ///< ImageDescription: one line JSON; Software ("" = "venato"); no DateTime (reproducible bytes)
-  std::string icc_profile;           ///< tag 34675: the bytes of an ICC profile of these channels; "" = none. Not filled by read_tiff_info
+  std::string icc_profile;             ///< tag 34675: the bytes of an ICC profile of these channels; "" = none. Not filled by read_tiff_info
   bool big_tiff = false;
   std::uint8_t no_ink_value = 0;  ///< polarity, told by DotRange and the sidecar
   int bits = 8;                   ///< of a sample; set by read_tiff_info (writers follow `kind`: 8, or 32 for fractions_f32)

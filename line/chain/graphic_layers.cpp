@@ -60,9 +60,10 @@ std::vector<int> ink_channels(const std::filesystem::path& file, const graphics:
   if (info.names.empty() || printer.by_profile) return channels;
   for (std::size_t k = 0; k < n; ++k) {
     const auto at = std::find_if(info.names.begin(), info.names.end(), [&](const auto& name) { return lower(name) == lower(wanted[k]); });
-    if (at == info.names.end())
+    const auto taken = channels.begin() + static_cast<std::ptrdiff_t>(k);
+    if (at == info.names.end() || std::find(channels.begin(), taken, static_cast<int>(at - info.names.begin())) != taken)
       throw UsageError(file.string() + ": has the inks " + joined(info.names) + ", the printer has " + joined(wanted) +
-                       "; call them by the same names in graphic/inks");
+                       "; call them by the same names in graphic/inks, each once");
     channels[k] = static_cast<int>(at - info.names.begin());
   }
   return channels;

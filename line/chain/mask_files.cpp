@@ -41,7 +41,7 @@ GraphicUse graphic_use(const LineConfig& c, const std::vector<LoadedLayer>& laye
     outside += n * layer.inks.profile->out_of_gamut_share;
   }
   if (layers.front().inks.profile) {
-    use.profile = graphics::ProfileUse{layers.front().inks.profile->description, pixels > 0 ? outside / pixels : 0};
+    use.profile = graphics::ProfileUse{layers.front().inks.profile->description, outside / pixels};  // NaN when every layer has inks of its own
     use.intent = graphics::intent_name(c.graphic.profile_intent);
   }
   return use;

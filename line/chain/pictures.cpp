@@ -53,7 +53,8 @@ sync::Transform placement_transform(const LineConfig& c) {
 Raster8 load_design(const LineConfig& c) {
   const auto& d = c.design;
   const auto picture = graphics::load_picture(d.image, d.pitch_m);
-  return cut_to_slab(picture.pixels, d.pitch_m, d.origin_x_m, d.origin_y_m, c.basics.fired_width_m, c.basics.fired_length_m, 1.0, sync::Transform{}, 3);
+  return cut_to_slab(picture.pixels, d.pitch_m, d.origin_x_m, d.origin_y_m, c.basics.fired_width_m, c.basics.fired_length_m, 1.0, sync::Transform{},
+                     3);
 }
 
 Raster8 flatten_layers(const std::vector<LoadedLayer>& layers, bool warped_only) {

@@ -20,7 +20,8 @@ struct LoadedLayer {
   bool own_inks = false;      ///< the file is a separated TIFF: its ink amounts pass through
 };
 /// A picture is separated by the printer's profile, or without one by the inks' solids (a preview). A separated TIFF passes through, its channels in
-/// the printer's order. Same bytes for any number of threads. \throws UsageError, see graphics/graphic.h, icc/separate_by_profile.h, tiff/ink_picture.h
+/// the printer's order. Same bytes for any number of threads. \throws UsageError, see graphics/graphic.h, icc/separate_by_profile.h,
+/// tiff/ink_picture.h
 std::vector<LoadedLayer> load_graphic(const LineConfig& config, int threads);
 /// The inks of the printer: of the config, or of the profile. \throws UsageError: the profile cannot be used
 struct GraphicInks {
@@ -29,8 +30,8 @@ struct GraphicInks {
   bool by_profile = false;
 };
 GraphicInks graphic_inks(const LineConfig& config);
-/// For each ink of the printer the channel of a separated TIFF. Names decide (upper and lower case alike); a file without names, or inks of a profile,
-/// go by their order. \throws UsageError naming the file and both lists when they do not fit
+/// For each ink of the printer the channel of a separated TIFF. Names decide (upper and lower case alike); a file without names, or inks of a
+/// profile, go by their order. \throws UsageError naming the file and both lists when they do not fit
 std::vector<int> ink_channels(const std::filesystem::path& file, const graphics::InkPictureInfo& info, const GraphicInks& inks);
 /// All layers (or those that warp only) multiplied: what the print looks like. Print frame, sRGB.
 graphics::Raster8 flatten_layers(const std::vector<LoadedLayer>& layers, bool warped_only);

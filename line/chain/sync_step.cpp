@@ -67,10 +67,10 @@ SyncResult synchronise(const LineConfig& c, const graphics::VeinMap& vein_map, c
   }
   out.best = sync::score_masks(out.body, out.print_best, c.sync.score);
   if (const auto colours = sync::print_colours(look, out.print_fraction))
-    out.visibility = sync::visibility_report(out.body, out.print_before, out.registration.success ? &out.print_after : nullptr, *colours, {}, c.sync.score);
+    out.visibility = sync::visibility_report(out.body, out.print_before, out.registration.success ? &out.print_after : nullptr, *colours,
+                                             context.threads, {}, c.sync.score);
   out.body_edge = sync::edge_widths(vein, sync::centre_links(out.body, c.sync.score.min_width_m));
-  out.print_edge =
-      sync::edge_widths(out.print_fraction, sync::centre_links(veins_above(out.print_fraction, threshold), c.sync.score.min_width_m));
+  out.print_edge = sync::edge_widths(out.print_fraction, sync::centre_links(veins_above(out.print_fraction, threshold), c.sync.score.min_width_m));
   out.residuals_before = sync::centreline_residuals(out.body, out.print_before, c.sync.score);
   out.residuals_after = out.registration.success ? sync::centreline_residuals(out.body, out.print_after, c.sync.score) : out.residuals_before;
   out.residuals_best = sync::centreline_residuals(out.body, out.print_best, c.sync.score);

@@ -16,9 +16,9 @@ struct SyncResult {
   graphics::RasterF print_fraction;                               ///< vein fraction of the graphic, print frame
   graphics::Raster8 body, print_before, print_after, print_best;  ///< vein masks, green frame, 0/255
   sync::Metrics before, best;
-  std::optional<sync::SlabScore> zones;  ///< of `after`
-  std::optional<sync::Metrics> after;  ///< none when the registration failed: then the print stays as designed
-  sync::EdgeWidths body_edge, print_edge;  ///< 10-90 % edge widths of the predicted body veins and of the graphic's
+  std::optional<sync::SlabScore> zones;              ///< of `after`
+  std::optional<sync::Metrics> after;                ///< none when the registration failed: then the print stays as designed
+  sync::EdgeWidths body_edge, print_edge;            ///< 10-90 % edge widths of the predicted body veins and of the graphic's
   std::optional<sync::VisibilityReport> visibility;  ///< none for a graphic without veins
   std::vector<sync::ResidualSample> residuals_before, residuals_after, residuals_best;
   MapError error_before{}, error_after{};  ///< against the simulation's own displacement, over the body's vein pixels

@@ -2,31 +2,9 @@
 namespace venato::line {
 namespace {
 constexpr std::size_t kMaxInks = 15;  // of an ICC profile
-}
-
-void read_design(ObjectReader& r, DesignConfig& d) {
-  r.path("image", d.image, PathKind::existing_file, {"picture whose veins go through the body (PNG, JPEG, TIFF)"});
-  r.number("pitch_mm", d.pitch_m, {0.02, 20, "mm"}, {"size of one pixel on the fired slab"});
-  r.number("origin_x_mm", d.origin_x_m, {0, 10000, "mm"}, {"first corner of the slab inside the picture", 0.0});
-  r.number("origin_y_mm", d.origin_y_m, {0, 10000, "mm"}, {"same, along the belt", 0.0});
-  r.object(
-      "plan", "how the picture becomes a plan of powders",
-      [&](ObjectReader& o) {
-        auto& p = d.plan;
-        o.number("background_window_mm", p.background_window_m, {5, 1000, "mm"}, {"local background lightness is taken over this window", 120.0});
-        o.number("darkness_threshold", p.darkness_threshold, {0.01, 0.9, "1"},
-                 {"vein where L*/100 is darker than the local background by more than this", 0.10});
-        o.choice("tone", p.tone, {{"darker", graphics::VeinTone::darker}, {"lighter", graphics::VeinTone::lighter}},
-                 {"veins are darker or lighter than the body", "darker"});
-        o.number("min_width_mm", p.min_width_m, {0, 100, "mm"}, {"body veins are widened to this: 1.5 to 2 prong pitches", 8.0});
-        o.number("min_area_mm2", p.min_area_m2, {0, 1e6, "mm2"}, {"smaller specks are left to the printer", 400.0});
-        o.number("smoothing_mm", p.smoothing_m, {0, 50, "mm"}, {"of the vein outline", 2.0});
-      },
-      false);
-}
 
 /// How the graphic gets its inks: the printer's profile, or the inks' solids (a preview, unless the graphic has inks of its own).
-static void read_inks(ObjectReader& r, GraphicConfig& g) {
+void read_inks(ObjectReader& r, GraphicConfig& g) {
   using graphics::RenderingIntent;
   r.path("profile", g.profile, PathKind::existing_file, {"ICC output profile of printer, inks and body; instead of `inks` and `body_colour`", ""});
   r.choice("profile_intent", g.profile_intent,
@@ -59,6 +37,28 @@ static void read_inks(ObjectReader& r, GraphicConfig& g) {
             "`body_colour`");
   else if (!by_profile && !r.has("body_colour"))
     r.issue("body_colour", "is missing: the inks' solids are seen on it", "give the sRGB of the fired body without print");
+}
+}  // namespace
+
+void read_design(ObjectReader& r, DesignConfig& d) {
+  r.path("image", d.image, PathKind::existing_file, {"picture whose veins go through the body (PNG, JPEG, TIFF)"});
+  r.number("pitch_mm", d.pitch_m, {0.02, 20, "mm"}, {"size of one pixel on the fired slab"});
+  r.number("origin_x_mm", d.origin_x_m, {0, 10000, "mm"}, {"first corner of the slab inside the picture", 0.0});
+  r.number("origin_y_mm", d.origin_y_m, {0, 10000, "mm"}, {"same, along the belt", 0.0});
+  r.object(
+      "plan", "how the picture becomes a plan of powders",
+      [&](ObjectReader& o) {
+        auto& p = d.plan;
+        o.number("background_window_mm", p.background_window_m, {5, 1000, "mm"}, {"local background lightness is taken over this window", 120.0});
+        o.number("darkness_threshold", p.darkness_threshold, {0.01, 0.9, "1"},
+                 {"vein where L*/100 is darker than the local background by more than this", 0.10});
+        o.choice("tone", p.tone, {{"darker", graphics::VeinTone::darker}, {"lighter", graphics::VeinTone::lighter}},
+                 {"veins are darker or lighter than the body", "darker"});
+        o.number("min_width_mm", p.min_width_m, {0, 100, "mm"}, {"body veins are widened to this: 1.5 to 2 prong pitches", 8.0});
+        o.number("min_area_mm2", p.min_area_m2, {0, 1e6, "mm2"}, {"smaller specks are left to the printer", 400.0});
+        o.number("smoothing_mm", p.smoothing_m, {0, 50, "mm"}, {"of the vein outline", 2.0});
+      },
+      false);
 }
 
 void read_graphic(ObjectReader& r, GraphicConfig& g) {

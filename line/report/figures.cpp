@@ -149,7 +149,8 @@ void write_figures(const std::filesystem::path& run_folder, const LineConfig& c,
   book.picture("misfit_after", "sync", "Misfit after", "Same colours. What stays bright or magenta is where to look first.",
                sync::misfit_figure(s.body, s.residuals_after));
   if (s.visibility)
-    book.picture("visibility", "sync", s.visibility->after.empty() ? "What the eye sees of the misfit before" : "What the eye sees of the misfit after",
+    book.picture("visibility", "sync",
+                 s.visibility->after.empty() ? "What the eye sees of the misfit before" : "What the eye sees of the misfit after",
                  "Body veins and print veins in the same two colours, compared as an eye at 0.5, 1 and 2 m sees them; 2.3 is just noticeable.",
                  sync::visibility_figure(s.visibility->after.empty() ? s.visibility->before : s.visibility->after));
   book.plot("residuals", "sync",

@@ -92,8 +92,9 @@ std::string Page::verdict() const {
            format("and %.2f to %.2f mm (95 %%, bootstrap over zones). ", d.verdict.p95_low_mm, d.verdict.p95_high_mm);
   out += format("Before it was %.2f mm and %.2f mm on %.0f %%. ", d.before.median_mm, d.before.p95_mm, d.before.matched * 100);
   out += format("With the simulation's own displacement it would be %.2f mm and %.2f mm. ", d.best.median_mm, d.best.p95_mm);
-  return out + format("Tolerance: median %g mm and P95 %g mm is good, P95 %g mm acceptable", d.verdict.good_median_mm, d.verdict.good_p95_mm,
-                      d.verdict.fair_p95_mm) +
+  return out +
+         format("Tolerance: median %g mm and P95 %g mm is good, P95 %g mm acceptable", d.verdict.good_median_mm, d.verdict.good_p95_mm,
+                d.verdict.fair_p95_mm) +
          format("; at least %.0f %% of the vein length must have a partner.</div>\n", 100 * d.verdict.least_matched);
 }
 
@@ -110,7 +111,8 @@ std::string Page::scores() const {
       {"Matched length", "% of the print's vein length that found its body vein", [](const auto& m) { return fixed(m.matched * 100, 1); }, true},
       {"Body vein without print", "% of the body's vein length", [](const auto& m) { return fixed(m.missing_percent, 1); }, true},
       {"Print without body vein", "% of the print's vein length", [](const auto& m) { return fixed(m.extra_percent, 1); }, true},
-      {"Visibly off from 1 m", "% of the print's vein length; S-CIELAB difference above 2.3", [](const auto& m) { return fixed(m.visible_1m_percent, 1); }, true},
+      {"Visibly off from 1 m", "% of the print's vein length; S-CIELAB difference above 2.3",
+       [](const auto& m) { return fixed(m.visible_1m_percent, 1); }, true},
       {"Offset", "mm, signed mean: a constant shift shows here", [](const auto& m) { return fixed(m.offset_mm, 2); }, false},
       {"Centre line, largest", "mm; partners are sought within 15 mm", [](const auto& m) { return fixed(m.max_mm, 2); }, false},
       {"Body vein without print", "mm of centre line", [](const auto& m) { return fixed(m.missing_mm, 0); }, false},
@@ -133,8 +135,8 @@ std::string Page::scores() const {
            "</td><td class=\"n\">" + r.value(d.after) + "</td><td class=\"n\">" + r.value(d.best) + "</td><td>" + r.meaning + "</td></tr>\n";
   out += "</table></div>\n";
   if (std::isfinite(d.body_edge_mm))
-    out += "<p>Half of the body's vein edges rise from 10 to 90 % within " + fixed(d.body_edge_mm, 1) + " mm (the plan's vein edges of the graphic: " +
-           fixed(d.print_edge_mm, 1) + " mm).</p>\n";
+    out += "<p>Half of the body's vein edges rise from 10 to 90 % within " + fixed(d.body_edge_mm, 1) +
+           " mm (the plan's vein edges of the graphic: " + fixed(d.print_edge_mm, 1) + " mm).</p>\n";
   return out +
          "<p class=\"sub\">Distances count on matched length only, so read them with the matched length. Best reachable uses the "
          "displacement that the simulation itself produced; "

@@ -9,7 +9,8 @@ namespace venato::line {
 
 /// What the report shows, read from a run folder: run.json and score.json. Numbers that the files give as null are NaN.
 struct ReportMetrics {
-  double median_mm, p95_mm, offset_mm, matched, f1_1, f1_2, f1_3, dice, missing_mm, extra_mm, missing_percent, extra_percent, max_mm, cl_dice, assd_mm, hd95_mm, area_percent, width_mm, direction;
+  double median_mm, p95_mm, offset_mm, matched, f1_1, f1_2, f1_3, dice, missing_mm, extra_mm, missing_percent, extra_percent, max_mm, cl_dice,
+      assd_mm, hd95_mm, area_percent, width_mm, direction;
   double visible_1m_percent;  ///< of the print's vein length, seen to be off from 1 m
 };
 struct ReportFigure {

@@ -38,7 +38,9 @@ double visible_percent(const Json& details, const char* which, double distance_m
 ReportMetrics metrics(const Json& score, const char* which) {
   const Json& m = score.at(which);
   const Json& more = score.at("details").at(which);
-  const auto detail = [&](const char* key) { return more.is_object() && more.contains(key) ? number(more.at(key)) : std::numeric_limits<double>::quiet_NaN(); };
+  const auto detail = [&](const char* key) {
+    return more.is_object() && more.contains(key) ? number(more.at(key)) : std::numeric_limits<double>::quiet_NaN();
+  };
   return {number(m.at("centreline_error_mm").at("median")),
           number(m.at("centreline_error_mm").at("p95")),
           detail("centreline_offset_mm"),
@@ -157,8 +159,15 @@ void read_score(const Json& score, ReportData& d) {
   }
   const auto& v = score.at("verdict");
   const auto& t = v.at("tolerance");
-  d.verdict = {v.at("slab"), number(t.at("good_median_mm")), number(t.at("good_p95_mm")), number(t.at("fair_p95_mm")), number(t.at("least_matched_length")),
-               kNone, kNone, kNone, kNone};
+  d.verdict = {v.at("slab"),
+               number(t.at("good_median_mm")),
+               number(t.at("good_p95_mm")),
+               number(t.at("fair_p95_mm")),
+               number(t.at("least_matched_length")),
+               kNone,
+               kNone,
+               kNone,
+               kNone};
   if (v.contains("interval_95")) {
     const auto &median = v.at("interval_95").at("median_mm"), &p95 = v.at("interval_95").at("p95_mm");
     d.verdict.median_low_mm = number(median.at(0)), d.verdict.median_high_mm = number(median.at(1));

@@ -171,7 +171,7 @@ int run_sync(const SyncOptions& options, Context& context) {
 
   if (graphic.has_colours)
     if (const auto colours = print_colours(graphic.picture, graphic.fraction))
-      report.visibility = visibility_report(body, before, registration.success ? &after : nullptr, *colours, {}, options.score);
+      report.visibility = visibility_report(body, before, registration.success ? &after : nullptr, *colours, context.threads, {}, options.score);
   graphics::write_png(options.out / "overlay.png", overlay_figure(body, before, after, texts));
   if (registration.success) {
     graphics::write_png(options.out / "misfit.png", misfit_figure(body, centreline_residuals(body, after, options.score)));

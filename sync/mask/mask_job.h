@@ -46,11 +46,11 @@ struct MaskJob {
   std::array<std::uint8_t, 3> body_srgb{};
   bool separated_without_profile = false;
   std::optional<MaskProfile> profile;  ///< none: preview.png by the inks' solids
-  std::vector<InkLayer> layers;      ///< at least one
-  Transform print_from_green;        ///< [m]
-  Transform pose_from_green;         ///< used by layers with warp = false
-  bool synchronised = true;          ///< false: registration failed and print_from_green is only a placement; told in the sidecar
-  double width_m = 0, height_m = 0;  ///< of the green slab
+  std::vector<InkLayer> layers;        ///< at least one
+  Transform print_from_green;          ///< [m]
+  Transform pose_from_green;           ///< used by layers with warp = false
+  bool synchronised = true;            ///< false: registration failed and print_from_green is only a placement; told in the sidecar
+  double width_m = 0, height_m = 0;    ///< of the green slab
   double dpi = 360;
   graphics::TiffCompression compression = graphics::TiffCompression::deflate;
   Polarity print_polarity = Polarity::zero_is_no_ink;       ///< print.tif

@@ -148,8 +148,8 @@ void write_print_files(const MaskJob& job, const PreparedLayers& layers, const W
       return;
     }
     const graphics::Raster8 amounts = preview.amounts();
-    const graphics::Raster8 picture = job.profile ? graphics::see_by_profile(amounts, job.profile->file, 1).srgb
-                                                  : graphics::predict_srgb(job.inks, job.body_srgb, amounts);
+    const graphics::Raster8 picture =
+        job.profile ? graphics::see_by_profile(amounts, job.profile->file, 1).srgb : graphics::predict_srgb(job.inks, job.body_srgb, amounts);
     graphics::write_png(folder / "preview.png", picture);
     picture_file = about("preview.png", "preview", "sRGB", picture.width, picture.height, 3, kMetresPerInch / picture.pitch_m);
     seal(picture_file, folder);

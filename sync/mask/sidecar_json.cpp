@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sync/mask/mask_job.h"
@@ -74,12 +75,13 @@ std::string masks_json_text(const MaskJob& job, const MaskSet& set) {
     out["inks"].push_back({{"order", k}, {"name", job.inks[k].name}, {"solid_srgb", hex_colour(job.inks[k].solid_srgb)}});
   out["body_srgb"] = hex_colour(job.body_srgb);
   if (job.separated_without_profile) out["colour_note"] = "separated without a printer profile: colours are a preview, geometry is exact";
+  const double share = job.profile ? job.profile->use.out_of_gamut_share : 0;
   if (job.profile)
     out["profile"] = {{"description", job.profile->use.description},
                       {"file", job.profile->file.filename().string()},
                       {"sha256", job.profile->sha256},
                       {"intent", job.profile->intent},
-                      {"out_of_gamut_share", job.profile->use.out_of_gamut_share}};
+                      {"out_of_gamut_share", std::isfinite(share) ? Json(share) : Json(nullptr)}};
   out["layers"] = Json::array();
   for (const InkLayer& layer : job.layers)
     out["layers"].push_back({{"name", layer.name},

@@ -19,8 +19,8 @@ namespace {
 using graphics::TiffInfo;
 using graphics::TiffKind;
 
-constexpr double kSizeMargin = 1.25;                       // of the prediction, for the free space asked for
-constexpr double kSpareSpace_bytes = 32e6;                 // preview, feeds, sidecar
+constexpr double kSizeMargin = 1.25;        // of the prediction, for the free space asked for
+constexpr double kSpareSpace_bytes = 32e6;  // preview, feeds, sidecar
 
 void write_powders_at_own_pitch(const MaskJob& job, const std::filesystem::path& folder, MaskSet& set, int threads) {
   for (const PowderMask& powder : job.powders) {

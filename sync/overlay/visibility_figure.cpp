@@ -44,14 +44,15 @@ graphics::Raster8 visibility_figure(const std::vector<Visibility>& seen, double 
     paste(canvas, panels[at], x, y);
     draw_mm_axes(canvas, x, y, wide, high, 1 / panels[at].pitch_m, kText_px);
     draw_text(canvas, text("from %g m", seen[at].distance_m, 0), x, y - 10, kTitle_px, kInk);
-    draw_text(canvas, text("visible: %.0f of %.0f mm", seen[at].visible_length_m() * 1e3, seen[at].print_length_m * 1e3), x, y + high + 64, kText_px, kInk);
+    draw_text(canvas, text("visible: %.0f of %.0f mm", seen[at].visible_length_m() * 1e3, seen[at].print_length_m * 1e3), x, y + high + 64, kText_px,
+              kInk);
   }
   const int x = kMargin_px + n * step - kGap_px + 30, bar = std::min(high, 320), y = 2 * kBand_px;
   for (int k = 0; k < bar; ++k) fill_box(canvas, x, y + bar - 1 - k, bar_width, 1, viridis((k + 0.5) / bar));
   const double tick = round_step(limit, 5);
   for (int k = 0; k * tick <= limit * (1 + 1e-9); ++k)
-    draw_text(canvas, text("%g", k * tick, 0), x + bar_width + 8, y + bar - static_cast<int>(std::lround(k * tick / limit * bar)) + kText_px / 2, kText_px,
-              kInk);
+    draw_text(canvas, text("%g", k * tick, 0), x + bar_width + 8, y + bar - static_cast<int>(std::lround(k * tick / limit * bar)) + kText_px / 2,
+              kText_px, kInk);
   return canvas;
 }
 }  // namespace venato::sync

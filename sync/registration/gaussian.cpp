@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include "base/expects.h"
+#include "graphics/raster/weighted_sum.h"
 namespace venato::sync {
 namespace {
+using graphics::kSumLanes;
+using graphics::weighted_sum;
+
 constexpr double kCut = 3.5;  // sigmas
-constexpr int kLanes = 32;    // summed side by side; every lane is one output pixel, so SIMD width does not change a sum
 
 std::vector<float> kernel(double sigma_px) {
   const int r = static_cast<int>(std::ceil(kCut * sigma_px));
@@ -18,15 +21,6 @@ std::vector<float> kernel(double sigma_px) {
   std::vector<float> out;
   for (const double v : exact) out.push_back(static_cast<float>(v / sum));
   return out;
-}
-/// out[i] = sum_k w[k] rows[k][i] for i < n, n a multiple of kLanes.
-__attribute__((target_clones("avx2", "default"))) void weighted_sum(const float* const* rows, const float* w, int taps, int n, float* out) {
-  for (int i = 0; i < n; i += kLanes) {
-    float sum[kLanes] = {};
-    for (int k = 0; k < taps; ++k)
-      for (int l = 0; l < kLanes; ++l) sum[l] += w[k] * rows[k][i + l];
-    for (int l = 0; l < kLanes; ++l) out[i + l] = sum[l];
-  }
 }
 }  // namespace
 
@@ -44,7 +38,7 @@ void gaussian(std::span<const float> data, int width, int height, double sigma_p
                  data.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const std::vector<float> w = kernel(sigma_px);
   const int taps = static_cast<int>(w.size()), r = taps / 2;
-  const int room = (width + kLanes - 1) / kLanes * kLanes;  // row length with whole lanes
+  const int room = (width + kSumLanes - 1) / kSumLanes * kSumLanes;  // row length with whole lanes
   // A strip's rows across stay in the second-level cache while they are summed down.
   const int strip = std::max(64, 4 * r), strips = (height + strip - 1) / strip;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

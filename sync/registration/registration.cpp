@@ -75,101 +75,55 @@ graphics::Raster8 footprint(const Feature& print, const Feature& green, const Tr
     }
   return out;
 }
-/// What both the pose search and all that follows it need.
-struct Prepared {
-  bool as_picture = false, polarity_known = true;
-  double pitch = 0, grain = 0;
-  Feature green_base, print_base;
-  Features green_features, print_features;
-};
-/// \return nothing when a side cannot be used: out.reason says why
-std::optional<Prepared> prepare(const Evidence& green, const Evidence& print, Context& context, PhaseClock& clock, Registration& out) {
-  for (const auto& [side, name] : {std::pair(&green, "slab"), std::pair(&print, "graphic")})
-    if (const std::string why = unusable(*side, name); !why.empty()) {
-      fail(out, {"T0", 0, 0, false, "both pictures can be used"}, why);
-      return std::nullopt;
-    }
-  Prepared p;
-  p.as_picture = green.kind == EvidenceKind::picture || print.kind == EvidenceKind::picture;
-  p.polarity_known = !p.as_picture;
-  const double pixels =
-      std::max(green.value.width_m() * green.value.height_m(), print.value.width_m() * print.value.height_m()) / (kPitch_m * kPitch_m);
-  p.pitch = kPitch_m * std::max(1.0, std::sqrt(pixels / kMaxPixels));
-  p.green_base = resample(green, p.pitch, context.threads);
-  p.print_base = resample(print, p.pitch, context.threads);
-  clock.lap("rasters");
-  p.grain = std::max(wanted_smoothing_m(p.green_base, context.threads), wanted_smoothing_m(p.print_base, context.threads));
-  p.green_features = make_features(p.green_base, p.as_picture, p.grain, context.threads);
-  p.print_features = make_features(p.print_base, p.as_picture, p.grain, context.threads);
-  clock.lap("features");
-  const double min_contrast = p.as_picture ? kMinContrastLightness : kMinContrastFraction;
-  for (const auto& [f, name] : {std::pair(&p.green_features, "slab"), std::pair(&p.print_features, "graphic")}) {
-    if (!(f->contrast >= min_contrast)) {
-      fail(out, {"T0 contrast", f->contrast, min_contrast, false, "standard deviation of the vein evidence"},
-           std::string(name) + text(" picture shows no veins: contrast %.5f < %.5f", f->contrast, min_contrast));
-      return std::nullopt;
-    }
-  }
-  for (const auto& [f, name] : {std::pair(&p.green_features, "slab"), std::pair(&p.print_features, "graphic")}) {
-    if (!(f->isotropy >= kMinIsotropy)) {
-      fail(out, {"T7", f->isotropy, kMinIsotropy, false, "weak / strong direction of the veins"},
-           std::string(name) + text(" veins all run along (%.2f, %.2f): ", f->weak_direction.x(), f->weak_direction.y()) +
-               "a shift that way cannot be observed" + text(" (isotropy %.4f < %.4f)", f->isotropy, kMinIsotropy));
-      return std::nullopt;
-    }
-  }
-  if (context.stop_requested()) throw Interrupted("registration stopped");
-  return p;
-}
-
-PoseSearch search_everywhere(const Prepared& p, const Evidence& green, const RegistrationConfig& config, int threads) {
-  const bool small = std::min(green.value.width_m(), green.value.height_m()) < kSmallSlab_m;
-  const double coarse = config.coarse_pitch_m > 0 ? config.coarse_pitch_m : small ? kSmallPose_m : kPose_m;
-  return search_poses(p.green_features, p.print_features, coarse, config, p.polarity_known, kKeepPerFeature, threads);
-}
-
-CoarseMatch summary(const PoseSearch& search) {
-  CoarseMatch out;
-  for (const bool edges : {true, false}) {
-    // Best first per feature.
-    const auto best = std::find_if(search.candidates.begin(), search.candidates.end(), [&](const auto& c) { return c.from_gradient == edges; });
-    if (best == search.candidates.end()) continue;
-    (edges ? out.by_edges : out.by_evidence) = {best->ncc, best->score, edges ? search.gradient_peak_ratio : search.signed_peak_ratio,
-                                                best->turn % 4 * 90, best->turn >= 4};
-  }
-  return out;
-}
 }  // namespace
-
-CoarseMatch match_coarsely(const Evidence& green, const Evidence& print, const RegistrationConfig& config, Context& context) {
-  check_side(green, "slab");
-  check_side(print, "graphic");
-  Registration failed;
-  PhaseClock clock(failed.phases);
-  const auto prepared = prepare(green, print, context, clock, failed);
-  if (prepared) return summary(search_everywhere(*prepared, green, config, context.threads));
-  CoarseMatch out;
-  out.unusable = failed.reason;
-  return out;
-}
 
 Registration register_veins(const Evidence& green, const Evidence& print, const RegistrationConfig& config, const std::optional<Transform>& prior,
                             Context& context) {
   check_side(green, "slab");
   check_side(print, "graphic");
   Registration out;
+  for (const auto& [side, name] : {std::pair(&green, "slab"), std::pair(&print, "graphic")})
+    if (const std::string why = unusable(*side, name); !why.empty()) {
+      fail(out, {"T0", 0, 0, false, "both pictures can be used"}, why);
+      return out;
+    }
+  const bool as_picture = green.kind == EvidenceKind::picture || print.kind == EvidenceKind::picture, polarity_known = !as_picture;
+  const double pixels =
+      std::max(green.value.width_m() * green.value.height_m(), print.value.width_m() * print.value.height_m()) / (kPitch_m * kPitch_m);
+  const double pitch = kPitch_m * std::max(1.0, std::sqrt(pixels / kMaxPixels));
+
   PhaseClock clock(out.phases);
   context.progress.begin("registration", 4, "steps");
-  const auto prepared = prepare(green, print, context, clock, out);
-  if (!prepared) {
-    out.coarse.unusable = out.reason;
-    context.progress.end();
-    return out;
+  const Feature green_base = resample(green, pitch, context.threads), print_base = resample(print, pitch, context.threads);
+  clock.lap("rasters");
+  const double grain = std::max(wanted_smoothing_m(green_base, context.threads), wanted_smoothing_m(print_base, context.threads));
+  const Features green_features = make_features(green_base, as_picture, grain, context.threads),
+                 print_features = make_features(print_base, as_picture, grain, context.threads);
+  clock.lap("features");
+  const double min_contrast = as_picture ? kMinContrastLightness : kMinContrastFraction;
+  for (const auto& [f, name] : {std::pair(&green_features, "slab"), std::pair(&print_features, "graphic")}) {
+    if (!(f->contrast >= min_contrast)) {
+      fail(out, {"T0 contrast", f->contrast, min_contrast, false, "standard deviation of the vein evidence"},
+           std::string(name) + text(" picture shows no veins: contrast %.5f < %.5f", f->contrast, min_contrast));
+      context.progress.end();
+      return out;
+    }
   }
-  const auto& [as_picture, polarity_known, pitch, grain, green_base, print_base, green_features, print_features] = *prepared;
+  for (const auto& [f, name] : {std::pair(&green_features, "slab"), std::pair(&print_features, "graphic")}) {
+    if (!(f->isotropy >= kMinIsotropy)) {
+      fail(out, {"T7", f->isotropy, kMinIsotropy, false, "weak / strong direction of the veins"},
+           std::string(name) + text(" veins all run along (%.2f, %.2f): ", f->weak_direction.x(), f->weak_direction.y()) +
+               "a shift that way cannot be observed" + text(" (isotropy %.4f < %.4f)", f->isotropy, kMinIsotropy));
+      context.progress.end();
+      return out;
+    }
+  }
+  if (context.stop_requested()) throw Interrupted("registration stopped");
   context.progress.at(1);
 
   const int factor_4mm = std::max(1, static_cast<int>(std::lround(0.004 / pitch)));
+  const bool small = std::min(green.value.width_m(), green.value.height_m()) < kSmallSlab_m;
+  const double coarse = config.coarse_pitch_m > 0 ? config.coarse_pitch_m : small ? kSmallPose_m : kPose_m;
   PoseSearch search;
   if (prior) {
     // A predicted map names the place; only what ECC can correct is left open.
@@ -177,8 +131,7 @@ Registration register_veins(const Evidence& green, const Evidence& print, const 
     search.candidates.push_back(c);
     search.gradient_peak_ratio = search.signed_peak_ratio = 10;
   } else {
-    search = search_everywhere(*prepared, green, config, context.threads);
-    out.coarse = summary(search);
+    search = search_poses(green_features, print_features, coarse, config, polarity_known, kKeepPerFeature, context.threads);
   }
   if (context.stop_requested()) throw Interrupted("registration stopped");
   context.progress.at(2);

@@ -38,19 +38,6 @@ struct ZoneConfidence {
   double residual_m, sigma_m;
   bool usable;
 };
-/// What the exhaustive pose search alone says of two pictures: cheap, and enough to tell which of many graphics are worth a registration.
-struct CoarseMatch {
-  std::string unusable;  ///< "" or why these two cannot be compared at all (no veins, too small, stripes): registration fails for the same reason
-  /// Best place by the edge feature and by the signed feature.
-  struct Place {
-    double ncc = 0;         ///< masked NCC
-    double score = 0;       ///< |NCC| * sqrt(share of the slab inside the graphic)
-    double peak_ratio = 0;  ///< to the next best place more than 60 mm away
-    int turn_deg = 0;
-    bool mirrored = false;
-  };
-  Place by_edges, by_evidence;
-};
 struct Registration {
   bool success = false;
   std::string reason;          ///< "" on success; else which gate failed with its number
@@ -61,7 +48,6 @@ struct Registration {
   std::vector<ZoneConfidence> zones;  ///< 200 mm zones of the green frame; 90 % of errors below 1.52 sigma_m
   graphics::RasterF sigma_m;          ///< one channel, 10 mm pitch, predicted error
   double internal_residual_m = 0;
-  CoarseMatch coarse;         ///< what the search for the pose saw
   SlabStretch stretch;        ///< of print_from_green's mean affine part over the slab; zeros when !success
   std::vector<Phase> phases;  ///< wall time of each step
 };
@@ -75,6 +61,4 @@ struct Registration {
 /// predicted map (regularise towards it), usually absent here. Never throws for pictures that do not belong together: success = false.
 Registration register_veins(const Evidence& green, const Evidence& print, const RegistrationConfig& config, const std::optional<Transform>& prior,
                             Context& context);
-/// The pose search of register_veins alone. Same errors; never throws for pictures that do not belong together.
-CoarseMatch match_coarsely(const Evidence& green, const Evidence& print, const RegistrationConfig& config, Context& context);
 }  // namespace venato::sync

@@ -21,7 +21,8 @@ graphics::RasterF painted(const graphics::Raster8& mask, const PrintColours& col
   const float vein[3] = {static_cast<float>(on.x), static_cast<float>(on.y), static_cast<float>(on.z)},
               ground[3] = {static_cast<float>(off.x), static_cast<float>(off.y), static_cast<float>(off.z)};
   graphics::RasterF out(mask.width, mask.height, 3, mask.pitch_m);
-  for (std::size_t k = 0; k < mask.data.size(); ++k) std::copy_n(mask.data[k] ? vein : ground, 3, out.data.begin() + static_cast<std::ptrdiff_t>(3 * k));
+  for (std::size_t k = 0; k < mask.data.size(); ++k)
+    std::copy_n(mask.data[k] ? vein : ground, 3, out.data.begin() + static_cast<std::ptrdiff_t>(3 * k));
   return out;
 }
 
@@ -71,7 +72,8 @@ std::optional<PrintColours> print_colours(const graphics::Raster8& picture, cons
                                        std::min(vein_fraction.height - 1, static_cast<int>((j + 0.5) * scale)));
       if (std::isnan(f)) continue;
       const std::size_t side = f >= 0.5f ? 0 : 1;
-      for (int c = 0; c < 3; ++c) light[side][static_cast<std::size_t>(c)] += graphics::srgb_to_linear(picture.at(i, j, picture.channels == 3 ? c : 0));
+      for (int c = 0; c < 3; ++c)
+        light[side][static_cast<std::size_t>(c)] += graphics::srgb_to_linear(picture.at(i, j, picture.channels == 3 ? c : 0));
       ++pixels[side];
     }
   if (!(pixels[0] > 0 && pixels[1] > 0)) return std::nullopt;
@@ -86,14 +88,14 @@ std::optional<PrintColours> print_colours(const graphics::Raster8& picture, cons
 }
 
 std::vector<std::vector<Visibility>> visibility(const graphics::Raster8& body, const std::vector<const graphics::Raster8*>& prints,
-                                                const PrintColours& colours, const VisibilityConfig& config, const ScoreConfig& score) {
+                                                const PrintColours& colours, int threads, const VisibilityConfig& config, const ScoreConfig& score) {
   for (const double d : config.distances_m)
     if (!(d > 0) || !std::isfinite(d)) throw UsageError("visibility: a viewing distance of " + std::to_string(d) + " m is not positive and finite");
   // As in score_masks(): lines thinner than min_width_m are not scored, but they are partners.
   const std::vector<CentreLink> body_lines = centre_links(body, score.min_width_m), body_partners = centre_links(body, 0);
   const graphics::RasterF aligned = painted(body, colours);
   std::vector<graphics::RasterF> as_aligned;
-  for (const double d : config.distances_m) as_aligned.push_back(graphics::lab_seen_from(aligned, d));
+  for (const double d : config.distances_m) as_aligned.push_back(graphics::lab_seen_from(aligned, d, threads));
   std::vector<std::vector<Visibility>> out;
   for (const graphics::Raster8* print : prints) {
     check_masks(body, *print);
@@ -104,7 +106,7 @@ std::vector<std::vector<Visibility>> visibility(const graphics::Raster8& body, c
     for (std::size_t k = 0; k < config.distances_m.size(); ++k) {
       Visibility& v = seen.emplace_back();
       v.distance_m = config.distances_m[k];
-      v.delta_e = graphics::delta_e2000(as_aligned[k], graphics::lab_seen_from(as_is, v.distance_m));
+      v.delta_e = graphics::delta_e2000(as_aligned[k], graphics::lab_seen_from(as_is, v.distance_m, threads), threads);
       measure_area(v, body, *print);
       for (const NormalResidual& r : print_samples) {
         v.print_length_m += r.length_m;
@@ -119,10 +121,10 @@ std::vector<std::vector<Visibility>> visibility(const graphics::Raster8& body, c
 }
 
 VisibilityReport visibility_report(const graphics::Raster8& body, const graphics::Raster8& before, const graphics::Raster8* after,
-                                   const PrintColours& colours, const VisibilityConfig& config, const ScoreConfig& score) {
+                                   const PrintColours& colours, int threads, const VisibilityConfig& config, const ScoreConfig& score) {
   std::vector<const graphics::Raster8*> prints = {&before};
   if (after) prints.push_back(after);
-  auto seen = visibility(body, prints, colours, config, score);
+  auto seen = visibility(body, prints, colours, threads, config, score);
   VisibilityReport out{colours, config.noticeable_delta_e, std::move(seen[0]), {}};
   if (!after) return out;
   out.after = std::move(seen[1]);

@@ -31,17 +31,18 @@ struct Visibility {
   /// Centre-line length along which a difference above noticeable_delta_e lies across the vein and, where the line has a partner, its distance is
   /// more than the eye resolves. Displaced and extra are of the print; missing is body vein without print.
   double displaced_length_m = 0, extra_length_m = 0, missing_length_m = 0;
-  double print_length_m = 0;   ///< that was looked at
-  graphics::RasterF delta_e;   ///< the map, one channel, on the masks' grid
+  double print_length_m = 0;  ///< that was looked at
+  graphics::RasterF delta_e;  ///< the map, one channel, on the masks' grid
   /// Of the print: print without body vein is a line that the eye sees and the body does not have, so it counts.
   double visible_length_m() const { return displaced_length_m + extra_length_m; }
 };
-/// The picture "as aligned" is the body mask painted with colours.vein on colours.ground, the picture "as is" the print mask painted the same way: all
-/// that differs is where (and how wide) the veins are, not how well inks match powders. One answer per print, in it one per distance.
-/// \param body, prints 0/255, same size and pitch, green frame \throws UsageError as check_masks(), or for a distance that is not positive
-/// Viewed perpendicularly, the slab in the colours of the graphic's file under its own white; the pixel of the masks (1 mm) bounds the detail.
+/// The picture "as aligned" is the body mask painted with colours.vein on colours.ground, the picture "as is" the print mask painted the same way:
+/// all that differs is where (and how wide) the veins are, not how well inks match powders. One answer per print, in it one per distance. \param
+/// body, prints 0/255, same size and pitch, green frame \throws UsageError as check_masks(), or for a distance that is not positive Viewed
+/// perpendicularly, the slab in the colours of the graphic's file under its own white; the pixel of the masks (1 mm) bounds the detail.
 std::vector<std::vector<Visibility>> visibility(const graphics::Raster8& body, const std::vector<const graphics::Raster8*>& prints,
-                                                const PrintColours& colours, const VisibilityConfig& config = {}, const ScoreConfig& score = {});
+                                                const PrintColours& colours, int threads, const VisibilityConfig& config = {},
+                                                const ScoreConfig& score = {});
 
 /// What score.json tells of it.
 struct VisibilityReport {
@@ -51,5 +52,5 @@ struct VisibilityReport {
 };
 /// Both prints against the body; of the maps only those of the print as it ends (after, or before without one) are kept.
 VisibilityReport visibility_report(const graphics::Raster8& body, const graphics::Raster8& before, const graphics::Raster8* after,
-                                   const PrintColours& colours, const VisibilityConfig& config = {}, const ScoreConfig& score = {});
+                                   const PrintColours& colours, int threads, const VisibilityConfig& config = {}, const ScoreConfig& score = {});
 }  // namespace venato::sync

@@ -15,13 +15,12 @@ struct WarpGrid {
 inline constexpr int kMaxWarpChannels = 15;  ///< as many as an ICC profile has inks
 
 /// Rows [first_row, first_row + rows) of   out(p) = source(source_from_green(p)),   all channels at once, bilinear.
-/// \param source  8 bit, interleaved, 1..15 channels (up to 8 in vector code), own pitch, at most 100 000 px per side; contone (never warp screened data)
-/// \param source_from_green  [m] -> [m]; its B-spline is a cubic of x between knots, so every row is evaluated exactly (to rounding), without maps
-/// \param out     rows * grid.width * channels bytes
-/// \param outside value where the source has nothing; up to 1 source pixel beyond its border the border's own value is used
-/// Arithmetic: positions rounded to 2^-14 px, integer weights, one rounding of the horizontal blend to 1/128 level: within 1 level of the real-valued
-/// result, constants and identity exact. A pixel depends on its own row and column only: the same bytes for any strip height and thread count.
-/// Validity: bilinear sampling does not average; when the source is finer than the grid call reduced_if_finer first.
+/// \param source  8 bit, interleaved, 1..15 channels (up to 8 in vector code), own pitch, at most 100 000 px per side; contone (never warp screened
+/// data) \param source_from_green  [m] -> [m]; its B-spline is a cubic of x between knots, so every row is evaluated exactly (to rounding), without
+/// maps \param out     rows * grid.width * channels bytes \param outside value where the source has nothing; up to 1 source pixel beyond its border
+/// the border's own value is used Arithmetic: positions rounded to 2^-14 px, integer weights, one rounding of the horizontal blend to 1/128 level:
+/// within 1 level of the real-valued result, constants and identity exact. A pixel depends on its own row and column only: the same bytes for any
+/// strip height and thread count. Validity: bilinear sampling does not average; when the source is finer than the grid call reduced_if_finer first.
 void warp_rows(const graphics::Raster8& source, const Transform& source_from_green, const WarpGrid& grid, std::int64_t first_row, int rows,
                std::span<std::uint8_t> out, int threads, std::uint8_t outside = 0);
 

@@ -73,9 +73,9 @@ const std::vector<Row> kRows{
     {"two inks of one name", 2, {"two inks are called 'blue'"}, set("/graphic/inks/1/name", "blue")},
     {"too many inks",
      2,
-     {"/graphic/inks", "8"},
+     {"/graphic/inks", "15"},
      [](Json& c) {
-       for (int k = 0; k < 5; ++k) c["graphic"]["inks"].push_back({{"name", "ink" + std::to_string(k)}, {"solid", "#101010"}});
+       for (int k = 0; k < 10; ++k) c["graphic"]["inks"].push_back({{"name", "ink" + std::to_string(k)}, {"solid", "#101010"}});
      }},
     {"image and layers",
      2,

@@ -8,9 +8,8 @@ using namespace test;
 using V = Eigen::Vector2d;
 
 TEST(Homography, FourPointsAreMetAndTheClosedFormIsFound) {
-  // Heckbert 1989: unit square to the quadrilateral (0,0) (1,0) (2,2) (0,1): g = h = sum-free closed form, worked out by hand: w = 1 - x/3... see
-  // below. dx1 = -1, dx2 = -2, sx = 1; dy1 = -2, dy2 = -1, sy = 1; det = dx1 dy2 - dx2 dy1 = -3; g = (sx dy2 - dx2 sy)/det = -1/3; h = (dx1 sy - sx
-  // dy1)/det = -1/3.
+  // Unit square to the quadrilateral (0,0) (1,0) (2,2) (0,1), closed form (Heckbert 1989): dx1 = -1, dx2 = -2, sx = 1; dy1 = -2, dy2 = -1, sy = 1;
+  // det = dx1 dy2 - dx2 dy1 = -3; g = (sx dy2 - dx2 sy) / det = -1/3; h = (dx1 sy - sx dy1) / det = -1/3.
   const auto h = fit_homography({V(0, 0), V(1, 0), V(1, 1), V(0, 1)}, {V(0, 0), V(1, 0), V(2, 2), V(0, 1)});
   ASSERT_TRUE(h);
   Eigen::Matrix3d expected;

@@ -1,6 +1,7 @@
 /// How the graphic gets its inks: separated TIFFs pass through, pictures go through the printer's profile.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -84,6 +85,23 @@ TEST_F(GraphicLayers, OtherInksThanThePrintersAreRefusedWithBothLists) {
   EXPECT_NE(count.find("has 2 inks (Blue, Black), the printer has 1 (blue)"), std::string::npos) << count;
 }
 
+TEST_F(GraphicLayers, NoChannelServesTwoInks) {
+  write_inks("g.tif", {"Blue", "Black"});
+  const auto text = issues(config(by_solids("g.tif", ink("blue") + "," + ink("BLUE"))));
+  EXPECT_NE(text.find("each once"), std::string::npos) << text;
+}
+
+TEST_F(GraphicLayers, InksOfTheirOwnHaveNoShareOutOfGamut) {
+  graphics::test::write_synthetic_profile(folder / "p.icc");
+  write_inks("g.tif", {"1", "2", "3", "4", "5", "6"});
+  const auto c = config(R"("image":"g.tif","pitch_mm":1,"print_dpi":50,"profile":"p.icc")");
+  EXPECT_EQ(issues(c), "");
+  const auto use = graphic_use(c, load_graphic(c, 2));
+  EXPECT_EQ(use.layers_of_inks, 1);
+  ASSERT_TRUE(use.profile);
+  EXPECT_TRUE(std::isnan(use.profile->out_of_gamut_share)) << "nothing was mapped: a zero would be a result";
+}
+
 TEST_F(GraphicLayers, ASeparatedFileTooSmallForTheSlabIsRefused) {
   write_inks("g.tif", {"Blue"});
   const auto text = issues(config(by_solids("g.tif", ink("blue")) + R"(,"origin_x_mm":60)"));
@@ -132,7 +150,8 @@ TEST_F(GraphicLayers, ARunByProfileCarriesItIntoEveryFileThatTellsColours) {
   MaskChoices inverted;
   inverted.print_polarity = sync::Polarity::zero_is_full_ink;
   write_masks_of_run(folder / "run", folder / "inverted", {}, inverted, context, stages);
-  EXPECT_EQ(read_file(folder / "inverted/print.tif").find(profile), std::string::npos) << "samples that count the other way round are not the profile's";
+  EXPECT_EQ(read_file(folder / "inverted/print.tif").find(profile), std::string::npos)
+      << "samples that count the other way round are not the profile's";
 
   graphics::test::SyntheticProfile other;
   other.nodes_to_inks = 17;

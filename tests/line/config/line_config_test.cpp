@@ -119,7 +119,8 @@ TEST(LineConfig, DescribesAndHasASchema) {
 
 TEST(LineConfig, InksComeFromAProfileOrFromTheirSolidsButNotFromNothing) {
   const std::string graphic = std::string(R"({"image":")") + VENATO_SOURCE_DIR + R"(/configs/images/pov_calacatta_1600x3200.jpg","pitch_mm":1)";
-  const std::string profile = std::string(R"(,"profile":")") + VENATO_SOURCE_DIR + R"(/configs/images/pov_calacatta_1600x3200.jpg")";  // any file: not read here
+  const std::string profile =
+      std::string(R"(,"profile":")") + VENATO_SOURCE_DIR + R"(/configs/images/pov_calacatta_1600x3200.jpg")";  // any file: not read here
   const std::string inks = R"(,"inks":[{"name":"black","solid":"#202020"}])", body = R"(,"body_colour":"#f0f0f0")";
   const auto with = [&](const std::string& more) { return std::vector<Override>{{"/graphic", graphic + more + "}"}}; };
   const auto none = refused(fake::config_text(), with(""));

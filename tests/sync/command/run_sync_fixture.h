@@ -69,6 +69,25 @@ struct Case {
   json score() { return json::parse(bytes_of(options.out / "score.json")); }
 };
 
+/// The call must be refused with `word` in the message and no result.
+inline void expect_usage_error(Case& c, const std::string& word) {
+  try {
+    c.run();
+    ADD_FAILURE() << "accepted; expected " << word;
+  } catch (const UsageError& e) {
+    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+  }
+  EXPECT_FALSE(fs::exists(c.options.out / "score.json"));
+}
+inline void expect_same_bytes_for_any_threads(Case& c) {
+  c.context.context.threads = 1;
+  EXPECT_EQ(c.run(), 0);
+  const auto one = contents(c.options.out);
+  c.context.context.threads = 2;
+  c.run();
+  EXPECT_TRUE(one == contents(c.options.out));
+}
+
 struct MapRow {
   double xg, yg, xp, yp, sigma;
 };

@@ -24,12 +24,7 @@ TEST(RunSyncLong, SameBytesForAnyThreadCount) {
   Case c;
   c.write_fractions(5);
   c.write_graphic(5);
-  c.context.context.threads = 1;
-  c.run();
-  const auto one = contents(c.options.out);
-  c.context.context.threads = 2;
-  c.run();
-  EXPECT_TRUE(one == contents(c.options.out));
+  expect_same_bytes_for_any_threads(c);
 }
 
 }  // namespace

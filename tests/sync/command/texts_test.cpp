@@ -28,7 +28,8 @@ TEST(ScoreText, ConvertsToMillimetresAndWritesNullForNothing) {
   report.after = m;
   report.visibility = VisibilityReport{{{10, 20, 30}, {200, 190, 180}, 40.5}, 2.3, {}, {}};
   Visibility seen;
-  seen.distance_m = 0.5, seen.delta_e_mean = 3.5, seen.delta_e_p95 = std::numeric_limits<double>::quiet_NaN(), seen.area_over_1 = 0.25, seen.area_over_2 = 0.125;
+  seen.distance_m = 0.5, seen.delta_e_mean = 3.5, seen.delta_e_p95 = std::numeric_limits<double>::quiet_NaN(), seen.area_over_1 = 0.25,
+  seen.area_over_2 = 0.125;
   seen.displaced_length_m = 0.2, seen.extra_length_m = 0.05, seen.missing_length_m = 0.01, seen.print_length_m = 1;
   report.visibility->before.push_back(seen);
   report.body_edge = EdgeWidths{0.0042, 0.009, 0.8};

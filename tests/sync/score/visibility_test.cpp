@@ -24,7 +24,7 @@ Raster8 vein(double shift_mm) {
   return draw(400, 300, [=](double, double y) { return std::abs(y - 150 - shift_mm) < 3; });
 }
 std::vector<Visibility> seen(const Raster8& body, const Raster8& print, const PrintColours& colours = kMarble) {
-  return visibility(body, {&print}, colours)[0];
+  return visibility(body, {&print}, colours, 2)[0];
 }
 
 TEST(Visibility, NothingIsSeenOfAPrintThatFits) {
@@ -78,7 +78,7 @@ TEST(Visibility, VisibleLengthCountsWhatIsMovedMissingAndExtra) {
   const Raster8 half = draw(400, 300, [](double x, double y) { return std::abs(y - 150 - (x < 200 ? 3 : 0)) < 3; });
   for (const Visibility& v : seen(vein(0), half)) {
     EXPECT_NEAR(v.displaced_length_m, 0.2, 0.012) << v.distance_m;  // the step itself and the shortened end
-    EXPECT_NEAR(v.extra_length_m, 0, 0.005);  // the slanted links of the step find no partner
+    EXPECT_NEAR(v.extra_length_m, 0, 0.005);                        // the slanted links of the step find no partner
     EXPECT_NEAR(v.missing_length_m, 0, 0.005);
   }
   const Raster8 short_vein = draw(400, 300, [](double x, double y) { return x < 200 && std::abs(y - 150) < 3; });
@@ -106,7 +106,10 @@ TEST(Visibility, FaintVeinsAndWidthsAreNotVisibleLength) {
     EXPECT_GT(v.area_over_2, 0);  // but the map shows it
   }
   // 0.4 mm between the lines: more than 1 arcmin at 0.5 and 1 m, less at 2 m (0.58 mm).
-  const Raster8 a = draw(4000, 60, [](double, double y) { return std::abs(y - 30) < 8; }, 0.0002), b = draw(4000, 60, [](double, double y) { return std::abs(y - 32) < 8; }, 0.0002);
+  const Raster8 a = draw(
+                    4000, 60, [](double, double y) { return std::abs(y - 30) < 8; }, 0.0002),
+                b = draw(
+                    4000, 60, [](double, double y) { return std::abs(y - 32) < 8; }, 0.0002);
   const auto v = seen(a, b);
   EXPECT_GT(v[0].visible_length_m(), 0.7);
   EXPECT_EQ(v[2].visible_length_m(), 0);
@@ -136,7 +139,7 @@ TEST(Visibility, RefusesWhatItCannotCompare) {
   VisibilityConfig config;
   config.distances_m = {0};
   const Raster8 v = vein(0);
-  EXPECT_THROW(visibility(v, {&v}, kMarble, config), UsageError);
+  EXPECT_THROW(visibility(v, {&v}, kMarble, 2, config), UsageError);
 }
 
 TEST(Visibility, EmptyMasksReadNoNumber) {
